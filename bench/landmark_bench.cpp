@@ -62,7 +62,7 @@ class Listener : public engine::SessionObserver {
   }
   void happened(Timestamp /*time*/, Step /*from*/, engine::Event /*event*/,
                 engine::Cell answer) override {
-    if (outcome_.touch && answer.next != Step::kAccepted) {
+    if (outcome_.touch && answer.next != Step::kTouchLandmark) {
       outcome_.guided = outcome_.guided || answer.next == Step::kGuide;
       stop_();
     }

@@ -102,7 +102,7 @@ struct RodExperimentOptions {
   /// head, as in the arm with the template.
   bool in_socket = true;
   /// SD of that ball in the socket. Estimate (0.2 to 0.5 mm): a ball of 1 mm has 0.2 mm of play in
-  /// a dimple made for it, and a socket is wider.
+  /// a landmark made for it, and a socket is wider.
   double socket_seating_m = 0.0003;
   /// SD of what navigation adds to one head and not to the others, the same for all touches of a
   /// head. Measured with a patient reference: 0.11 mm (`bench_rod_heads --reference`); the

@@ -21,7 +21,7 @@ double usual_s(Step step) {
       return kVerify_s;
     case Step::kGuide:
       return kGuide_s;
-    case Step::kPlaced:
+    case Step::kMeasureWire:
       return kPlaced_s;
     case Step::kRod:
       return kRods_s;
@@ -60,7 +60,7 @@ double OperationEstimate::fraction(Timestamp time, const engine::Guidance& guida
     all_left_s += left_s(level);
   }
   all_left_s -= done_of_s(usual_s(guidance.step), seconds(time - step_began_)) +
-                (guidance.step == Step::kPlaced ? kGuide_s : 0.0);
+                (guidance.step == Step::kMeasureWire ? kGuide_s : 0.0);
   const double passed_s = seconds(time - *began_);
   most_ = std::max(most_, std::min(passed_s / (passed_s + std::max(all_left_s, 1.0)), 0.99));
   return most_;

@@ -33,7 +33,7 @@ GoldenScene names() {
   add_names(golden, "L3", {0, 0, 0.034f}, kEntryLabel);
   add_names(golden, "L4", {0, 0, 0}, kEntryLabel + 2);
   add_names(golden, "L5", {0, -0.003f, -0.034f}, kEntryLabel + 4);
-  add_status_line(golden.scene, "accepted L4 | touch the dimple", kToolDots, kStatusLabel);
+  add_status_line(golden.scene, "landmark L4 | touch it", kToolDots, kStatusLabel);
   return golden;
 }
 

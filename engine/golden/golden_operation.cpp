@@ -39,7 +39,7 @@ StagedOperation::StagedOperation(Step step) : levels_(1), tools_(2) {
   level.plan.screws = {plan_of(Side::kLeft), plan_of(Side::kRight)};
   level.registration.emplace();
   level.registration->common.tip_m = 0.0001;
-  level.accepted = step >= Step::kAccepted;
+  level.accepted = step >= Step::kTouchLandmark;
   level.screws.resize(2);
   level.screws[1].done = true;
   tools_[0] = {"guide", nav::ToolRole::kGuide, PoseStatus::kMeasured, {}};
@@ -48,7 +48,7 @@ StagedOperation::StagedOperation(Step step) : levels_(1), tools_(2) {
   }
   tools_[1] = {"reference", nav::ToolRole::kReference, PoseStatus::kMeasured, {}};
   const bool of_level = step != Step::kSetup && step != Step::kDone;
-  const bool of_side = step == Step::kGuide || step == Step::kPlaced;
+  const bool of_side = step == Step::kGuide || step == Step::kMeasureWire;
   guidance.step = step;
   guidance.status.at = {step, of_level ? "L4" : "",
                         of_side ? std::optional(Side::kLeft) : std::nullopt};

@@ -16,7 +16,7 @@ GoldenScene placed(const std::string& name, const std::string& what, double angl
   wire.axis.line = {{wire_axis.tip.v}, -wire_axis.tool_outward};
   wire.axis.angle_rad = {angle_deg * kRadiansPerDegree, 0.7 * kRadiansPerDegree};
   wire.axis.entry_m = {beside_m, 0.0005};
-  StagedOperation s(Step::kPlaced);
+  StagedOperation s(Step::kMeasureWire);
   s.guidance.wire = &wire;
   s.guidance.status.state = WireSoFar{&wire, false};
   return s.scene(name, what);

@@ -29,7 +29,7 @@ std::optional<PlacedLevel> usable(const LevelState& level) {
 
 /// H4 depends on the registration alone, so it stays when the tool is lost.
 std::optional<PlacedScrew> selected_screw(const Guidance& g) {
-  const bool at_screw = g.step == Step::kGuide || g.step == Step::kPlaced;
+  const bool at_screw = g.step == Step::kGuide || g.step == Step::kMeasureWire;
   if (!at_screw || g.level >= g.levels.size()) {
     return std::nullopt;
   }
@@ -169,12 +169,12 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   if (g.step != Step::kDone && g.level < g.levels.size()) {
     out.level = &g.levels[g.level];
   }
-  out.entry_labels = g.step == Step::kAccepted || g.step == Step::kDone;
+  out.entry_labels = g.step == Step::kTouchLandmark || g.step == Step::kDone;
   if (const auto* strokes = std::get_if<StrokesSoFar>(&g.status.state);
       strokes != nullptr && strokes->coaching != nullptr && !strokes->coaching->enough) {
     out.stroke_next = strokes->coaching->stroke_at;
   }
-  if (g.step == Step::kAccepted && g.level < g.levels.size()) {
+  if (g.step == Step::kTouchLandmark && g.level < g.levels.size()) {
     const LevelState& level = g.levels[g.level];
     if (const auto there = usable(level); there && level.landmark) {
       out.landmark = there->world_from_vertebra * level.landmark->in_vertebra;
@@ -182,7 +182,7 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   }
   out.trajectory = selected_screw(g);
   // The measurement of a wire in the bone is as old as its registration, not as a pose.
-  out.wire = out.trajectory && g.step == Step::kPlaced ? g.wire : nullptr;
+  out.wire = out.trajectory && g.step == Step::kMeasureWire ? g.wire : nullptr;
   if (out.trajectory && g.step == Step::kGuide) {
     const bool fresh = g.tool && display_time - g.tool->pose_time <= g.stale_after;
     const ToolGuidance* tool = fresh ? &*g.tool : nullptr;

@@ -183,7 +183,7 @@ void put_levels(const LoggedOperation& session, std::string& html) {
                    {"points"},
                    {"time", "s"},
                    {"check points", "mm"},
-                   {"dimple", "mm off"},
+                   {"landmark", "mm off"},
                    {"screws done"}});
   for (std::size_t i = 0; i < session.state.levels.size(); ++i) {
     const LevelState& level = session.state.levels[i];
@@ -381,13 +381,14 @@ void put_steps(const LoggedOperation& session, std::string& html) {
   html += "<section><h2>Course</h2>" + table.html("narrow") + "</section>";
 }
 
-/// What was measured of the guide: its tip in the same dimple as the pointer's, its axis in place.
+/// What was measured of the guide: its tip at the same landmark as the pointer's, its axis in
+/// place.
 void put_guide_notes(const LoggedOperation& session, std::string& html) {
   html += "<ul class=notes><li>";
   if (!session.tips) {
     html += "The tips of pointer and guide were not compared.</li>";
   } else {
-    html += "In one dimple the tips of pointer and guide were " +
+    html += "At one landmark the tips of pointer and guide were " +
             html_number(session.tips->apart_m.norm() * 1e3, 2) + " mm apart" +
             (session.tips->corrected ? "; the guide\u2019s was corrected by " +
                                            html_number(session.tips->by_m.norm() * 1e3, 2) + " mm"

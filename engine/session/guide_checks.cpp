@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include "engine/session/log/operation_json.h"
-#include "engine/session/operation_in_work.h"
+#include "engine/session/session_state.h"
 
 namespace orthonav::engine {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 constexpr double kLeastSizeSd = 0.0003;
 /// Smaller corrections of the tip are not offered.
 constexpr double kTipWorth_m = 0.0002;
-/// Tips farther apart were not in the same dimple.
+/// Tips farther apart were not at the same landmark.
 constexpr double kMaxTipsApart_m = 0.010;
 
 }  // namespace
@@ -98,7 +98,7 @@ Direction<Marker> AxisCheck::correct() {
 namespace {
 
 /// How the guide was last seen against the bone of the current level.
-Mat3 bone_from_guide(const OperationInWork& work) {
+Mat3 bone_from_guide(const SessionState& work) {
   const LevelState& level = work.level();
   const nav::TrackedPose& seen = work.tools.watch(work.tools.guide()).last_measured_pose();
   return level.registration ? level.registration->world_from_vertebra.rotation().transposed() *
@@ -113,7 +113,7 @@ GuideChecks::GuideChecks(const SessionOptions& options)
     : tips_(std::numbers::sqrt2 * options.placed.tip_sd_m, options.steps.tips),
       axis_(options.placed.axis_sd_rad) {}
 
-void GuideChecks::compare_tips(OperationInWork& work, const nav::PressedPlace& place,
+void GuideChecks::compare_tips(SessionState& work, const nav::PressedPlace& place,
                                const nav::PressedPlace& pointer_tip, Timestamp time) {
   const WatchedTools& tools = work.tools;
   const auto taken = tips_.take(place, tools.watch(tools.guide()).last_measured_pose().value,
@@ -126,13 +126,13 @@ void GuideChecks::compare_tips(OperationInWork& work, const nav::PressedPlace& p
   }
 }
 
-void GuideChecks::compare_axis(OperationInWork& work, const nav::SpinCalibration& spin,
+void GuideChecks::compare_axis(SessionState& work, const nav::SpinCalibration& spin,
                                Timestamp time) {
   axis_.take(spin, work.tools.geometry(work.tools.guide()).axis_in_marker);
   work.observer->axis_compared(time, *axis_.last());
 }
 
-void GuideChecks::correct_guide(OperationInWork& work, Timestamp time) {
+void GuideChecks::correct_guide(SessionState& work, Timestamp time) {
   WatchedTools& tools = work.tools;
   if (tips_.offers()) {
     const Vec3 by_m = tips_.correct();
@@ -149,7 +149,7 @@ void GuideChecks::correct_guide(OperationInWork& work, Timestamp time) {
 /// Camera errors shift everything seen in one place alike. The guide's tag is seen some 0.1 m from
 /// where the pointer's was, at 0.45 m, and the head has turned since, so this part of the error is
 /// assumed not to be shared. Estimate.
-ToolErrors GuideChecks::errors(const OperationInWork& work, Timestamp now) const {
+ToolErrors GuideChecks::errors(const SessionState& work, Timestamp now) const {
   constexpr double kElsewhere = 0.3;
   const LevelState& level = work.level();
   const double cameras_m = level.registration ? level.registration->common.cameras_m : 0.0;

@@ -12,10 +12,10 @@
 
 namespace orthonav::engine {
 
-struct OperationInWork;
+struct SessionState;
 struct SessionOptions;
 
-/// The guide's tip compared with the pointer's, both put into the same dimple. The pointer
+/// The guide's tip compared with the pointer's, both put into the same landmark. The pointer
 /// determines where the bone is, and the guide is aimed there, so an error that they do not share
 /// affects every entry.
 struct TipDifference {
@@ -37,7 +37,7 @@ inline constexpr double kTagDistance_m = 0.45;
 /// Done after the landmark was touched: before each screw with a patient reference, once in an
 /// operation without, or again at the surgeon's choice. Before a screw the guide is held as for the
 /// screw: what a comparison can't tell apart, the guide's tip (which turns with it) and the
-/// pointer's (which shifted the registered bone), then adds up as it did in the dimple.
+/// pointer's (which shifted the registered bone), then adds up as it did at the landmark.
 class TipCheck {
  public:
   /// `prior_sd_m`: SD along an axis of the distance between the two described tips after
@@ -135,17 +135,17 @@ class GuideChecks {
   /// Another screw is next: the tips are to be compared as the guide is held for it.
   void expect_tips() { tips_.expect(); }
   /// The guide's tip was put at `place` after the pointer's was at `pointer_tip`.
-  void compare_tips(OperationInWork& work, const nav::PressedPlace& place,
+  void compare_tips(SessionState& work, const nav::PressedPlace& place,
                     const nav::PressedPlace& pointer_tip, Timestamp time);
   /// The sleeve was turned over a wire.
-  void compare_axis(OperationInWork& work, const nav::SpinCalibration& spin, Timestamp time);
+  void compare_axis(SessionState& work, const nav::SpinCalibration& spin, Timestamp time);
   /// The status line offers a correction, of the tip or of the axis.
   [[nodiscard]] bool offers() const { return tips_.offers() || axis_.offers(); }
   /// The surgeon consents to the one that is offered: of the tip first, then of the axis.
-  void correct_guide(OperationInWork& work, Timestamp time);
+  void correct_guide(SessionState& work, Timestamp time);
 
   /// How far off the guide may be on the current level, as it was last seen.
-  [[nodiscard]] ToolErrors errors(const OperationInWork& work, Timestamp now) const;
+  [[nodiscard]] ToolErrors errors(const SessionState& work, Timestamp now) const;
   [[nodiscard]] const TipCheck& tips() const { return tips_; }
   [[nodiscard]] const AxisCheck& axis() const { return axis_; }
 

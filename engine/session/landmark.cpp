@@ -7,7 +7,7 @@ namespace orthonav::engine {
 
 double landmark_variance_m2(bool anchored) {
   const double lasting_m = anchored ? kLastingSdAnchored_m : kLastingSd_m;
-  return kDimpleSd_m * kDimpleSd_m + lasting_m * lasting_m;
+  return kLandmarkSeatingSd_m * kLandmarkSeatingSd_m + lasting_m * lasting_m;
 }
 
 double landmark_distance_sd_m(double recorded_sd_m, double sd_m, bool anchored) {

@@ -5,8 +5,8 @@
 
 namespace orthonav::engine {
 
-/// A place on a level's bone that can be found again by feel, such as a dimple made in it. Touched
-/// before each screw, it shows whether the bone still lies where its registration says
+/// A place on a level's bone that can be found again by feel, such as a landmark made in it.
+/// Touched before each screw, it shows whether the bone still lies where its registration says
 /// (docs/decisions/0065-a-landmark-before-each-screw.md).
 struct Landmark {
   Point<Vertebra> in_vertebra;  ///< where it was touched first, by the registration at that time
@@ -27,8 +27,8 @@ struct LandmarkTouch {
   [[nodiscard]] bool moved() const { return missing == 0 && !(off_m <= limit_m); }
 };
 
-/// SD along an axis of a tip put into the same dimple again. Estimate.
-inline constexpr double kDimpleSd_m = 0.0002;
+/// SD along an axis of a tip put into the same landmark again. Estimate.
+inline constexpr double kLandmarkSeatingSd_m = 0.0002;
 /// SD along an axis of tracking errors that last longer than a touch, so that averaging does not
 /// remove them: on the headset's map, and relative to a patient reference.
 inline constexpr double kLastingSd_m = 0.00035;

@@ -278,10 +278,10 @@ void Session::forget_registration() {
 
 void Session::drop_touch(Timestamp time) {
   using What = TouchNotRecorded::What;
-  const What what = work_.step == Step::kVerify     ? What::kCheckPoint
-                    : work_.step == Step::kAccepted ? What::kLandmark
-                    : work_.step == Step::kPlaced   ? What::kWire
-                                                    : What::kHead;
+  const What what = work_.step == Step::kVerify          ? What::kCheckPoint
+                    : work_.step == Step::kTouchLandmark ? What::kLandmark
+                    : work_.step == Step::kMeasureWire   ? What::kWire
+                                                         : What::kHead;
   work_.touches.drop();
   work_.messages.say(TouchNotRecorded{what, {TouchRefusal::Kind::kHeldTooLong}}, time);
 }
@@ -314,7 +314,7 @@ std::optional<FollowUpEvent> Session::act(Action action, Event event, Timestamp 
     case kDropCheck: verifying_.drop_check(work_, time); break;
     case kAccept: accept(time); break;
     case kClearLevel: clear_level(time); break;
-    case kTouchLandmark: return landmarking_.touch_landmark(work_, guide_checks_, time);
+    case kRecordLandmark: return landmarking_.touch_landmark(work_, guide_checks_, time);
     case kDropLandmark: landmarking_.drop_landmark(work_, time); break;
     case kExpectLandmark: expect_landmark(); break;
     case kVerifyAgain: landmarking_.verify_again(work_, verifying_, guiding_, time); break;
@@ -327,7 +327,7 @@ std::optional<FollowUpEvent> Session::act(Action action, Event event, Timestamp 
     case kReplan: replanning_.replan(work_, guiding_, placing_, time); break;
     case kTakeBreach: replanning_.take_breach(work_, guiding_, placing_, time); break;
     case kExpectWire: placing_ = Placing(work_.options); break;
-    case kMeasureWire: placing_.measure(work_, guiding_, guide_checks_, watching_.reference_hidden(work_), time); break;
+    case kRecordWire: placing_.measure(work_, guiding_, guide_checks_, watching_.reference_hidden(work_), time); break;
     case kJudgeRedo: return placing_.judge_redo(work_, guiding_, time);
     case kFinishScrew: return guiding_.finish_screw(work_, placing_, time);
     case kBeginRod: return rods_.begin(work_);
@@ -353,13 +353,13 @@ void Session::collect() {
         add_tip(work_.touches.pointer, tools, tools.pointer());
       }
       return;
-    case Step::kAccepted:
-      if (work_.options.steps.dimple()) {
+    case Step::kTouchLandmark:
+      if (work_.options.steps.touches_landmark()) {
         add_tip(work_.touches.pointer, tools, tools.pointer());
         add_tip(work_.touches.guide, tools, tools.guide());
       }
       return;
-    case Step::kPlaced:
+    case Step::kMeasureWire:
       return placing_.collect(work_);
     case Step::kRod:
       return add_tip(work_.touches.pointer, tools, tools.pointer());
@@ -381,13 +381,13 @@ std::optional<std::size_t> Session::tool() const {
       return pointer;
     case Step::kVerify:
       return of_method.check_points ? std::optional(pointer) : std::nullopt;
-    case Step::kAccepted:
+    case Step::kTouchLandmark:
       // Once the landmark is touched, the guide is next.
-      return of_method.dimple()
+      return of_method.touches_landmark()
                  ? std::optional(landmarking_.touched() ? work_.tools.guide() : pointer)
                  : std::nullopt;
     case Step::kGuide:
-    case Step::kPlaced:
+    case Step::kMeasureWire:
       return work_.tools.guide();
     case Step::kSetup:
     case Step::kDone:
@@ -404,10 +404,10 @@ StepOnDisplay Session::on_display() const {
     case Step::kDigitize:
     case Step::kRegistering:
     case Step::kVerify:
-    case Step::kAccepted:
+    case Step::kTouchLandmark:
       return {work_.step, work_.level().plan.label, {}};
     case Step::kGuide:
-    case Step::kPlaced:
+    case Step::kMeasureWire:
       return {work_.step, work_.level().plan.label,
               work_.level().plan.screws[guiding_.screw()].side};
     case Step::kRod:
@@ -422,9 +422,9 @@ StepState Session::state() const {
       return digitizing_.state();
     case Step::kVerify:
       return verifying_.state(work_);
-    case Step::kAccepted:
+    case Step::kTouchLandmark:
       return landmarking_.state(work_, guide_checks_);
-    case Step::kPlaced:
+    case Step::kMeasureWire:
       return placing_.state();
     case Step::kRod:
       return rods_.state(work_);

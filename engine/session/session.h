@@ -13,8 +13,8 @@
 #include "engine/session/log/saving.h"
 #include "engine/session/log/session_observer.h"
 #include "engine/session/method.h"
-#include "engine/session/operation_in_work.h"
 #include "engine/session/session_options.h"
+#include "engine/session/session_state.h"
 #include "engine/session/steps/digitizing.h"
 #include "engine/session/steps/guiding.h"
 #include "engine/session/steps/landmarking.h"
@@ -139,7 +139,7 @@ class Session {
   const Guidance& withdraw(Timestamp display_time, Message why);
   [[nodiscard]] Saved saved() const;
 
-  OperationInWork work_;
+  SessionState work_;
   Workflow workflow_;
 
   // The steps, each with its state and actions, and what several of them share: the checks of the

@@ -26,13 +26,13 @@ constexpr bool one_of(Step step, std::initializer_list<Step> steps) {
   using tool_steps_detail::one_of;
   switch (role) {
     case ToolRole::kPointer:
-      return one_of(step, {kDigitize, kRegistering, kVerify, kAccepted, kRod});
+      return one_of(step, {kDigitize, kRegistering, kVerify, kTouchLandmark, kRod});
     case ToolRole::kGuide:
-      return one_of(step, {kAccepted, kGuide, kPlaced});
-    case ToolRole::kAwl:  // makes the dimple, and opens the cortex
-      return one_of(step, {kAccepted, kGuide});
+      return one_of(step, {kTouchLandmark, kGuide, kMeasureWire});
+    case ToolRole::kAwl:  // makes the landmark, and opens the cortex
+      return one_of(step, {kTouchLandmark, kGuide});
     case ToolRole::kWire:  // stands while it is measured
-      return one_of(step, {kGuide, kPlaced});
+      return one_of(step, {kGuide, kMeasureWire});
     case ToolRole::kDrill:
     case ToolRole::kTap:
     case ToolRole::kScrewdriver:

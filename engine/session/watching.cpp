@@ -19,14 +19,14 @@ std::optional<Event> ToolInUse::look(const ToolWatch& watch, Timestamp now, Dura
   return std::nullopt;
 }
 
-std::optional<Event> Watching::look_at_map(const StereoFrame& frame, const OperationInWork& work) {
+std::optional<Event> Watching::look_at_map(const StereoFrame& frame, const SessionState& work) {
   const bool moved = map_epoch_ && *map_epoch_ != frame.map_epoch;
   map_epoch_ = frame.map_epoch;
   // With a patient reference nothing depends on the map.
   return moved && !work.anchored() ? std::optional(Event::kMapMoved) : std::nullopt;
 }
 
-std::optional<Event> Watching::detect_reference_shift(const OperationInWork& work) {
+std::optional<Event> Watching::detect_reference_shift(const SessionState& work) {
   const nav::Anchor* anchor = work.tools.tracker().anchor();
   if (anchor == nullptr || std::exchange(reference_moves_, anchor->moves) == anchor->moves) {
     return std::nullopt;
@@ -34,7 +34,7 @@ std::optional<Event> Watching::detect_reference_shift(const OperationInWork& wor
   return Event::kReferenceMoved;
 }
 
-std::optional<Event> Watching::look_for_reference(const OperationInWork& work, Timestamp now) {
+std::optional<Event> Watching::look_for_reference(const SessionState& work, Timestamp now) {
   const nav::Anchor* anchor = work.tools.tracker().anchor();
   if (anchor == nullptr) {
     return std::nullopt;
@@ -46,7 +46,7 @@ std::optional<Event> Watching::look_for_reference(const OperationInWork& work, T
   return hidden ? Event::kReferenceHidden : Event::kReferenceSeen;
 }
 
-void Watching::publish_reference_poses(const OperationInWork& work, Timestamp now) {
+void Watching::publish_reference_poses(const SessionState& work, Timestamp now) {
   const nav::Anchor* anchor = work.tools.tracker().anchor();
   // Observers added later are notified then.
   if (anchor != nullptr && work.heard() && !anchor->places.empty() &&
@@ -55,7 +55,7 @@ void Watching::publish_reference_poses(const OperationInWork& work, Timestamp no
   }
 }
 
-std::optional<Event> Watching::look_at_tool(const OperationInWork& work,
+std::optional<Event> Watching::look_at_tool(const SessionState& work,
                                             std::optional<std::size_t> tool, Timestamp now) {
   if (tool != in_use_.tool()) {
     in_use_ = ToolInUse(tool);
@@ -66,7 +66,7 @@ std::optional<Event> Watching::look_at_tool(const OperationInWork& work,
   return in_use_.look(work.tools.watch(*tool), now, work.options.stale_after);
 }
 
-std::optional<FollowUpEvent> Watching::look_at_drift(const OperationInWork& work,
+std::optional<FollowUpEvent> Watching::look_at_drift(const SessionState& work,
                                                      const Guiding& guiding, Timestamp now) const {
   if (work.step != Step::kGuide) {
     return std::nullopt;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "engine/session/operation_in_work.h"
+#include "engine/session/session_state.h"
 #include "engine/session/steps/guiding.h"
 #include "engine/session/text/messages.h"
 #include "engine/session/watched_tools.h"
@@ -45,23 +45,23 @@ class Watching {
   [[nodiscard]] bool begun() const { return map_epoch_.has_value(); }
 
   [[nodiscard]] std::optional<Event> look_at_map(const StereoFrame& frame,
-                                                 const OperationInWork& work);
+                                                 const SessionState& work);
   /// Whether references moved against each other.
-  [[nodiscard]] std::optional<Event> detect_reference_shift(const OperationInWork& work);
+  [[nodiscard]] std::optional<Event> detect_reference_shift(const SessionState& work);
   /// Whether a reference is seen.
-  [[nodiscard]] std::optional<Event> look_for_reference(const OperationInWork& work, Timestamp now);
+  [[nodiscard]] std::optional<Event> look_for_reference(const SessionState& work, Timestamp now);
   /// Reports the places of the references whenever they change.
-  void publish_reference_poses(const OperationInWork& work, Timestamp now);
-  [[nodiscard]] std::optional<Event> look_at_tool(const OperationInWork& work,
+  void publish_reference_poses(const SessionState& work, Timestamp now);
+  [[nodiscard]] std::optional<Event> look_at_tool(const SessionState& work,
                                                   std::optional<std::size_t> tool, Timestamp now);
   /// Until a drill is set the surgeon can go back and touch the landmark; afterwards the displayed
   /// SD grows.
-  [[nodiscard]] std::optional<FollowUpEvent> look_at_drift(const OperationInWork& work,
+  [[nodiscard]] std::optional<FollowUpEvent> look_at_drift(const SessionState& work,
                                                            const Guiding& guiding,
                                                            Timestamp now) const;
 
   /// A reference is in use but none is seen.
-  [[nodiscard]] bool reference_hidden(const OperationInWork& work) const {
+  [[nodiscard]] bool reference_hidden(const SessionState& work) const {
     return work.anchored() && reference_hidden_;
   }
   [[nodiscard]] bool tool_lost() const { return in_use_.lost(); }

@@ -6,7 +6,7 @@ namespace orthonav {
 
 std::string_view name_of(Step step) {
   constexpr std::array<std::string_view, kStepCount> kNames = {
-      "setup", "digitize", "registering", "verify", "accepted", "guide", "placed", "rod", "done"};
+      "setup", "digitize", "registering", "verify", "landmark", "guide", "measure", "rod", "done"};
   // A name forgotten at the end would be empty.
   static_assert(!kNames.back().empty());
   return kNames[static_cast<std::size_t>(step)];

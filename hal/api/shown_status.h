@@ -18,9 +18,9 @@ enum class Step : std::uint8_t {
   kDigitize,
   kRegistering,
   kVerify,
-  kAccepted,
+  kTouchLandmark,
   kGuide,
-  kPlaced,
+  kMeasureWire,
   kRod,
   kDone
 };
@@ -73,10 +73,10 @@ enum class Notice : std::uint8_t {
 enum class ChecksAsked : std::uint8_t {
   kNone,          ///< nothing about check points
   kTouchMore,     ///< more places, or the landmark before a screw
-  kGuideTip,      ///< the guide's tip in the landmark too
+  kGuideTip,      ///< the guide's tip at the landmark too
   kGuideTipHeld,  ///< the same, held as for the next screw
   kCorrectGuide,  ///< consent to correct its tip or its axis
-  kMeasureWire,   ///< with the sleeve over it
+  kRecordWire,    ///< with the sleeve over it
   kDecideOnWire,  ///< beyond a limit: keep or redo
   kKeepWire,      ///< beyond a limit, and it can't be redone
   kReject,        ///< a check point lies too far off the surface

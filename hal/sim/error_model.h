@@ -127,9 +127,9 @@ struct ErrorModel {
   /// SD of the tip's height above the bone when a single place is touched: pressed slowly through
   /// soft tissue, it is a fraction of the height while stroking; never below the bone. Estimate.
   double touch_lift_m = 0.0003;
-  /// SD along each axis of the pointer's tip when it is put into the same dimple of the bone again.
-  /// Estimate: the play of a 1 mm ball in the hole of an awl.
-  double dimple_seating_m = 0.0002;
+  /// SD along each axis of the pointer's tip when it is put into the same landmark of the bone
+  /// again. Estimate: the play of a 1 mm ball in the hole of an awl.
+  double landmark_seating_m = 0.0002;
   /// Relative SD of the stroking speed from region to region. Estimate.
   double stroke_pace_sd = 0.05;
   /// Fraction of strokes that slip off the bone, are noticed, deleted and repeated. Estimate.

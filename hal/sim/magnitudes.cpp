@@ -79,7 +79,7 @@ constexpr std::array<Magnitude, 63> kMagnitudes = {{
     {"stroke_lift_length_m", "m", &ErrorModel::stroke_lift_length_m, 0.0, 1.0, 0.03, 0.3,
      "a guess; 0.26 on a sawbone pelvis (docs/real-measurements.md)"},
     {"touch_lift_m", "m", &ErrorModel::touch_lift_m, 0.0, 0.02, 0.0001, 0.0006, "a guess"},
-    {"dimple_seating_m", "m", &ErrorModel::dimple_seating_m, 0.0, 0.005, 0.0001, 0.0004,
+    {"landmark_seating_m", "m", &ErrorModel::landmark_seating_m, 0.0, 0.005, 0.0001, 0.0004,
      "a guess: the play of a ball in what an awl leaves"},
     {"stroke_pace_sd", "", &ErrorModel::stroke_pace_sd, 0.0, 1.0, 0.05, 0.05, "a guess"},
     {"bad_stroke_probability", "", &ErrorModel::bad_stroke_probability, 0.0, 0.9, 0.1, 0.1,

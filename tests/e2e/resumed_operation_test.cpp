@@ -175,7 +175,8 @@ TEST(ResumedOperation, KilledTwiceEndsWithEveryScrewOnceVerifiedBeforeItGuides) 
   EXPECT_EQ(test::screws_done(records), test::kEveryScrewOnce);
   expect_untouched(last.before, found->operation);
   using enum OperationRecord;
-  // In a new room the bone's dimple is elsewhere, so check points verify the restored registration.
+  // In a new room the bone's landmark is elsewhere, so check points verify the restored
+  // registration.
   EXPECT_LT(first_of(kLandmark, records, first_kill), first_of(kCheckPoint, records, first_kill));
   EXPECT_LT(first_of(kCheckPoint, records, first_kill), first_of(kAccepted, records, first_kill));
   EXPECT_LT(first_of(kAccepted, records, first_kill), first_of(kScrew, records, first_kill));

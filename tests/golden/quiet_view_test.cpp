@@ -134,7 +134,7 @@ void expect_quiet_whatever_is_asked() {
     expect_with(verify, ChecksSoFar{&verdict});
   }
   expect_with(verify, ByEye{});
-  golden::StagedOperation accepted(Step::kAccepted);
+  golden::StagedOperation accepted(Step::kTouchLandmark);
   accepted.level().screws[1].done = false;
   const TipCheck any_way(0.0007);
   TipCheck as_for_screw(0.0007);
@@ -151,7 +151,7 @@ void expect_quiet_whatever_is_asked() {
     accepted.guidance.status.message = &corrected;
     expect_with(accepted, LandmarkSoFar{true, LandmarkTouch{true, 0, 0.0, 0.0015}, &any_way});
   }
-  golden::StagedOperation placed(Step::kPlaced);
+  golden::StagedOperation placed(Step::kMeasureWire);
   expect_with(placed, WireSoFar{});
   golden::StagedOperation rod(Step::kRod);
   HeadsSoFar heads;

@@ -223,12 +223,12 @@ const engine::Guidance& ScriptedOperation::checks_by_touch() {
   return touches({0.000, 0.020, 0.012});
 }
 
-const engine::Guidance& ScriptedOperation::touches_dimple(Vec3 off_m) {
+const engine::Guidance& ScriptedOperation::touches_landmark(Vec3 off_m) {
   const int touches = engine::landmark_touches(tracker_->anchor() != nullptr);
   for (int touch = 1; touch < touches; ++touch) {
-    this->touches(kDimple + off_m);
+    this->touches(kLandmark + off_m);
   }
-  return this->touches(kDimple + off_m);
+  return this->touches(kLandmark + off_m);
 }
 
 const engine::Guidance& ScriptedOperation::accepts_first_by_touch() {

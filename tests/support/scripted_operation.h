@@ -66,9 +66,9 @@ class ScriptedOperation {
   /// From setup to `accepted` of the first level, where registrations are verified by touch.
   const engine::Guidance& accepts_first_by_touch();
   /// A place for its landmark: on the box's back.
-  static constexpr Vec3 kDimple{0.012, 0.020, 0.015};
-  /// Touches the dimple with this offset, as often as its measurement needs.
-  const engine::Guidance& touches_dimple(Vec3 off_m = {});
+  static constexpr Vec3 kLandmark{0.012, 0.020, 0.015};
+  /// Touches the landmark with this offset, as often as its measurement needs.
+  const engine::Guidance& touches_landmark(Vec3 off_m = {});
   /// From setup to the end of the last level's last screw: to `rod`, or `done` with one level.
   const engine::Guidance& finishes_every_screw();
 

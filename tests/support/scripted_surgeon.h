@@ -38,7 +38,7 @@ class ScriptedSurgeon {
         return digitize();
       case Step::kVerify:
         return verify();
-      case Step::kAccepted:
+      case Step::kTouchLandmark:
         return touch_landmark();
       case Step::kGuide:
         if (is_to_be_moved()) {
@@ -49,7 +49,7 @@ class ScriptedSurgeon {
         s_.pairs(3);
         s_.says("next");
         return true;
-      case Step::kPlaced:
+      case Step::kMeasureWire:
         return measure();
       case Step::kRod:
         return touch_heads();
@@ -119,9 +119,9 @@ class ScriptedSurgeon {
   bool touch_landmark() {
     const auto* so_far = std::get_if<engine::LandmarkSoFar>(&s_.pair().status.state);
     if (so_far != nullptr && (!so_far->last || so_far->last->missing > 0)) {
-      s_.touches(ScriptedOperation::kDimple);
-    } else if (s_.says("next").step == Step::kAccepted) {
-      s_.touches(ScriptedOperation::kDimple);  // a screw is redone
+      s_.touches(ScriptedOperation::kLandmark);
+    } else if (s_.says("next").step == Step::kTouchLandmark) {
+      s_.touches(ScriptedOperation::kLandmark);  // a screw is redone
     }
     return true;
   }

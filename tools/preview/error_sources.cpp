@@ -34,7 +34,7 @@ constexpr auto kSources = std::to_array<ErrorSource>({
     {"hand", "tremor, turning", "°", &ErrorModel::tremor_rad, kDeg, 2.0},
     {"hand", "lift of strokes", "mm", &ErrorModel::stroke_lift_m, kMm, 6.0},
     {"hand", "lift of touches", "mm", &ErrorModel::touch_lift_m, kMm, 3.0},
-    {"hand", "tip in a dimple", "mm", &ErrorModel::dimple_seating_m, kMm, 2.0},
+    {"hand", "tip in a landmark", "mm", &ErrorModel::landmark_seating_m, kMm, 2.0},
     {"hand", "bad strokes", "%", &ErrorModel::bad_stroke_probability, 100.0, 90.0},
     {"hand", "picking an entry", "mm", &ErrorModel::entry_pick_m, kMm, 5.0},
     {"hand", "picking a head", "mm", &ErrorModel::head_pick_m, kMm, 5.0},

@@ -49,8 +49,7 @@ void restore_level(LevelState& level, LevelState logged) {
 
 }  // namespace
 
-Status Resuming::restore(const LoggedOperation& logged, OperationInWork& work,
-                         RodTemplating& rods) {
+Status Resuming::restore(const LoggedOperation& logged, SessionState& work, RodTemplating& rods) {
   if (Status same = check_levels(work.state.levels, logged.state.levels); !same) {
     return same;
   }
@@ -77,7 +76,7 @@ Status Resuming::restore(const LoggedOperation& logged, OperationInWork& work,
   return {};
 }
 
-std::optional<Event> Resuming::resume_level(OperationInWork& work, const RodTemplating& rods,
+std::optional<Event> Resuming::resume_level(SessionState& work, const RodTemplating& rods,
                                             Digitizing& digitizing, Verifying& verifying,
                                             Timestamp time) {
   LevelState& level = work.level();

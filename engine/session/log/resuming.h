@@ -5,7 +5,7 @@
 
 #include "base/result.h"
 #include "engine/session/log/logged_operation.h"
-#include "engine/session/operation_in_work.h"
+#include "engine/session/session_state.h"
 #include "engine/session/steps/digitizing.h"
 #include "engine/session/steps/rod_templating.h"
 #include "engine/session/steps/verifying.h"
@@ -17,10 +17,10 @@ class Resuming {
  public:
   /// Called before the first step. Refuses different levels or screws, and references in other
   /// places.
-  Status restore(const LoggedOperation& logged, OperationInWork& work, RodTemplating& rods);
+  Status restore(const LoggedOperation& logged, SessionState& work, RodTemplating& rods);
   /// A level begins: continues in the step that the operation had reached, or in the one before it
   /// in which the registration can be verified.
-  [[nodiscard]] std::optional<Event> resume_level(OperationInWork& work, const RodTemplating& rods,
+  [[nodiscard]] std::optional<Event> resume_level(SessionState& work, const RodTemplating& rods,
                                                   Digitizing& digitizing, Verifying& verifying,
                                                   Timestamp time);
   /// The saved regions were measured in a World that no longer exists.

@@ -104,7 +104,7 @@ Message message_about(const RegistrationOutcome& outcome) {
 
 }  // namespace
 
-Digitizing::Digitizing(const OperationInWork& work) : registering_(work.method.registrar) {
+Digitizing::Digitizing(const SessionState& work) : registering_(work.method.registrar) {
   if (work.method.coaching) {
     coach_ = std::make_unique<Coach>(work.method.registrar, work.options.common);
   }
@@ -124,7 +124,7 @@ void Digitizing::press(LevelState& level, Timestamp time) {
   }
 }
 
-void Digitizing::collect(const OperationInWork& work) {
+void Digitizing::collect(const SessionState& work) {
   if (strokes_.digitizer.recording()) {
     const std::size_t pointer = work.tools.pointer();
     const nav::ToolGeometry& tool = work.tools.geometry(pointer);
@@ -136,7 +136,7 @@ void Digitizing::collect(const OperationInWork& work) {
   }
 }
 
-void Digitizing::save_region(OperationInWork& work, Timestamp time) {
+void Digitizing::save_region(SessionState& work, Timestamp time) {
   const std::ptrdiff_t before = saved_in(regions());
   strokes_.digitizer.save();
   if (saved_in(regions()) > before) {
@@ -147,7 +147,7 @@ void Digitizing::save_region(OperationInWork& work, Timestamp time) {
   }
 }
 
-void Digitizing::drop_region(OperationInWork& work, Timestamp time) {
+void Digitizing::drop_region(SessionState& work, Timestamp time) {
   const std::ptrdiff_t before = saved_in(regions());
   Message answer = dropped(time);
   if (saved_in(regions()) < before) {
@@ -179,7 +179,7 @@ Message Digitizing::dropped(Timestamp time) {
   return ConfirmDelete{last_saved(regions()).samples.size()};
 }
 
-std::optional<Event> Digitizing::register_level(OperationInWork& work, Timestamp time) {
+std::optional<Event> Digitizing::register_level(SessionState& work, Timestamp time) {
   LevelState& level = work.level();
   const WatchedTools& tools = work.tools;
   level.tag_size.reset();
@@ -210,7 +210,7 @@ std::optional<Event> Digitizing::register_level(OperationInWork& work, Timestamp
   return std::nullopt;
 }
 
-std::optional<Event> Digitizing::look(OperationInWork& work, Timestamp time) {
+std::optional<Event> Digitizing::look(SessionState& work, Timestamp time) {
   if (coach_) {
     coach_->look(work.waits);
   }
@@ -218,7 +218,7 @@ std::optional<Event> Digitizing::look(OperationInWork& work, Timestamp time) {
   return job ? std::optional(take(work, std::move(*job), time)) : std::nullopt;
 }
 
-Event Digitizing::take(OperationInWork& work, RegistrationJob job, Timestamp time) {
+Event Digitizing::take(SessionState& work, RegistrationJob job, Timestamp time) {
   LevelState& level = work.level();
   const Result<nav::Registration>& result = *job.found;
   RegistrationOutcome outcome;

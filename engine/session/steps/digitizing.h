@@ -10,8 +10,8 @@
 #include "engine/session/log/logged_operation.h"
 #include "engine/session/log/operation_json.h"
 #include "engine/session/method.h"
-#include "engine/session/operation_in_work.h"
 #include "engine/session/operation_state.h"
+#include "engine/session/session_state.h"
 #include "engine/session/work_watch.h"
 #include "nav/tracking/worker.h"
 
@@ -63,23 +63,23 @@ class Registering {
 /// registration. The strokes outlive the step: they stay visible while they are verified.
 class Digitizing {
  public:
-  explicit Digitizing(const OperationInWork& work);
+  explicit Digitizing(const SessionState& work);
 
   /// Sets the watch to be notified of what is computed beside the session; null: none. Borrowed.
   void watch_work(WorkWatch* watch);
   /// Once for each pair of any step: the answer of a registration that is computed beside it.
-  [[nodiscard]] std::optional<Event> look(OperationInWork& work, Timestamp time);
+  [[nodiscard]] std::optional<Event> look(SessionState& work, Timestamp time);
 
   void press(LevelState& level, Timestamp time);
   void release(Timestamp time) { strokes_.digitizer.release(time); }
   /// Once for each pair of the step.
-  void collect(const OperationInWork& work);
-  void save_region(OperationInWork& work, Timestamp time);
+  void collect(const SessionState& work);
+  void save_region(SessionState& work, Timestamp time);
   /// A saved region is deleted only when "delete" is said twice.
-  void drop_region(OperationInWork& work, Timestamp time);
+  void drop_region(SessionState& work, Timestamp time);
   /// Registers the saved regions and drops the rest. A registration that passes becomes the
   /// level's. Absent: it is computed beside the session, and `look` has the answer.
-  [[nodiscard]] std::optional<Event> register_level(OperationInWork& work, Timestamp time);
+  [[nodiscard]] std::optional<Event> register_level(SessionState& work, Timestamp time);
   /// Another level, or this one anew.
   void clear();
   /// Takes over the saved regions of a resumed operation.
@@ -103,7 +103,7 @@ class Digitizing {
     return strokes_.digitizer.regions();
   }
   [[nodiscard]] Message dropped(Timestamp time);
-  [[nodiscard]] Event take(OperationInWork& work, RegistrationJob job, Timestamp time);
+  [[nodiscard]] Event take(SessionState& work, RegistrationJob job, Timestamp time);
   /// Drops trials and registrations under way: their strokes are gone or no longer needed.
   void forget_work();
 

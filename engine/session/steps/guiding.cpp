@@ -27,7 +27,7 @@ constexpr double kOffTheScrew_m = 0.015;
 constexpr double kAway_rad = 0.52;
 
 /// The event after a screw is done.
-Event after_screw(const OperationInWork& work) {
+Event after_screw(const SessionState& work) {
   const auto finished = [](const LevelState& level) { return level.finished(); };
   if (!finished(work.level())) {
     return Event::kAnotherScrew;
@@ -59,7 +59,7 @@ void Guiding::begin_level() {
   forget_guidance();
 }
 
-Event Guiding::finish_screw(OperationInWork& work, const Placing& placing, Timestamp time) const {
+Event Guiding::finish_screw(SessionState& work, const Placing& placing, Timestamp time) const {
   LevelState& level = work.level();
   const auto& at_depth = approach_.at_depth;
   ScrewState& screw = level.screws[screw_];
@@ -71,7 +71,7 @@ Event Guiding::finish_screw(OperationInWork& work, const Placing& placing, Times
                                  work.tools.geometry(work.tools.guide()), work.options.astray)
                : std::nullopt;
   screw.executed = approach_.path.mean();
-  if (work.step == Step::kPlaced) {
+  if (work.step == Step::kMeasureWire) {
     screw.wire = {true, placing.wire()};
   }
   work.observer->screw_done(time, level, screw_, at_depth ? &*at_depth : nullptr);
@@ -79,7 +79,7 @@ Event Guiding::finish_screw(OperationInWork& work, const Placing& placing, Times
   return after_screw(work);
 }
 
-void Guiding::write(const OperationInWork& work, const GuideChecks& checks, bool hidden,
+void Guiding::write(const SessionState& work, const GuideChecks& checks, bool hidden,
                     Guidance& out) {
   out.screw = screw_;
   out.twin = twin_;
@@ -100,7 +100,7 @@ void Guiding::write(const OperationInWork& work, const GuideChecks& checks, bool
   out.was_set = approach_.was_set;
 }
 
-std::optional<ToolGuidance> Guiding::guide(const OperationInWork& work, Timestamp now,
+std::optional<ToolGuidance> Guiding::guide(const SessionState& work, Timestamp now,
                                            Timestamp display_time) {
   const LevelState& level = work.level();
   const ToolWatch& watch = work.tools.watch(work.tools.guide());
@@ -234,7 +234,7 @@ std::optional<nav::ScrewClearance> Guiding::clearance_along(const LevelState& le
   return nav::screw_clearance(bone, *screw, &of_drill);
 }
 
-void Guiding::add_clearance(ToolGuidance& guidance, const OperationInWork& work,
+void Guiding::add_clearance(ToolGuidance& guidance, const SessionState& work,
                             const nav::TrackedPose& pose, const nav::ToolGeometry& tool) {
   guidance.clearance = clearance_along(work.level(), pose, tool, work.options.astray);
   if (guidance.clearance) {

@@ -7,7 +7,7 @@
 
 #include "base/translation.h"
 #include "engine/session/log/operation_json.h"
-#include "engine/session/operation_in_work.h"
+#include "engine/session/session_state.h"
 #include "engine/session/tool_in_vertebra.h"
 #include "nav/guidance/drill_watch.h"
 #include "nav/guidance/screw_numbers.h"
@@ -34,7 +34,7 @@ class Guiding {
   void toggle_twin() { twin_ = !twin_; }
   void toggle_numbers() { numbers_ = !numbers_; }
   /// The selected screw is done, with its wire where one was placed.
-  [[nodiscard]] Event finish_screw(OperationInWork& work, const Placing& placing,
+  [[nodiscard]] Event finish_screw(SessionState& work, const Placing& placing,
                                    Timestamp time) const;
 
   [[nodiscard]] std::size_t screw() const { return screw_; }
@@ -48,7 +48,7 @@ class Guiding {
       const DrillSkiving& astray) const;
   /// Writes the selected screw and, in this step, the tool relative to it unless guidance is
   /// hidden.
-  void write(const OperationInWork& work, const GuideChecks& checks, bool hidden, Guidance& out);
+  void write(const SessionState& work, const GuideChecks& checks, bool hidden, Guidance& out);
 
  private:
   /// What was measured on the way to the selected screw.
@@ -69,12 +69,12 @@ class Guiding {
 
     /// Feeds the drill's watch. The first time that the tip is set on the bone at the entry, what
     /// was measured on the way there is forgotten: beside the screw a tip may lie deeper than where
-    /// it is set, as in the dimple, and a sleeve never gets deeper than there.
+    /// it is set, as at the landmark, and a sleeve never gets deeper than there.
     void watch_drill(const nav::DrillReading& reading);
   };
 
   /// The tool relative to the selected screw. Absent without a fresh pose to guide on.
-  [[nodiscard]] std::optional<ToolGuidance> guide(const OperationInWork& work, Timestamp now,
+  [[nodiscard]] std::optional<ToolGuidance> guide(const SessionState& work, Timestamp now,
                                                   Timestamp display_time);
   /// Feeds the tool's pose measured in this pair to numbers, drill and path.
   void take_measurement(ToolGuidance& guidance, const LevelState& level,
@@ -84,8 +84,8 @@ class Guiding {
   [[nodiscard]] ToolInVertebra in_bone(const LevelState& level, const nav::TrackedPose& pose,
                                        const nav::ToolGeometry& tool) const;
   /// Adds `clearance_along`, and its displayed form, to guidance on a measurement.
-  void add_clearance(ToolGuidance& guidance, const OperationInWork& work,
-                     const nav::TrackedPose& pose, const nav::ToolGeometry& tool);
+  void add_clearance(ToolGuidance& guidance, const SessionState& work, const nav::TrackedPose& pose,
+                     const nav::ToolGeometry& tool);
 
   ToolErrors errors_;  ///< of the tool in this pair; World's drift is in the level (BoneFound)
   std::size_t screw_ = 0;

@@ -55,7 +55,7 @@ void note_bone_found(LevelState& level, const LandmarkTouch& touch, double drift
 
 }  // namespace
 
-std::optional<Event> Landmarking::touch_landmark(OperationInWork& work, GuideChecks& guide,
+std::optional<Event> Landmarking::touch_landmark(SessionState& work, GuideChecks& guide,
                                                  Timestamp time) {
   LevelState& level = work.level();
   const TouchedPlace place = take_place(work, time);
@@ -78,10 +78,10 @@ std::optional<Event> Landmarking::touch_landmark(OperationInWork& work, GuideChe
   return touch.moved() ? std::optional(Event::kLandmarkMoved) : std::nullopt;
 }
 
-/// Once the pointer was in the dimple, the guide may follow: a press belongs to the tool whose tip
-/// is nearer to the dimple.
+/// Once the pointer was at the landmark, the guide may follow: a press belongs to the tool whose
+/// tip is nearer to the landmark.
 std::optional<nav::PressedPlace> Landmarking::guide_tip_in_landmark(
-    OperationInWork& work, const TouchedPlace& pointer) const {
+    SessionState& work, const TouchedPlace& pointer) const {
   constexpr double kInReach_m = 0.02;
   if (!work.options.steps.tips) {
     return std::nullopt;
@@ -92,10 +92,10 @@ std::optional<nav::PressedPlace> Landmarking::guide_tip_in_landmark(
   if (!guide_tip || !touched()) {
     return std::nullopt;
   }
-  const Point<World> dimple = place_in_world(work.level()).place;
-  const double guide_m = (guide_tip->place - dimple).norm();
+  const Point<World> landmark = place_in_world(work.level()).place;
+  const double guide_m = (guide_tip->place - landmark).norm();
   const auto* pointer_tip = std::get_if<nav::PressedPlace>(&pointer);
-  const bool nearer = !pointer_tip || guide_m < (pointer_tip->place - dimple).norm();
+  const bool nearer = !pointer_tip || guide_m < (pointer_tip->place - landmark).norm();
   return nearer && guide_m <= kInReach_m ? std::optional(*guide_tip) : std::nullopt;
 }
 
@@ -175,7 +175,7 @@ void Landmarking::forget_touches() {
   touches_ = 0;
 }
 
-void Landmarking::drop_landmark(OperationInWork& work, Timestamp time) {
+void Landmarking::drop_landmark(SessionState& work, Timestamp time) {
   if (!last_) {
     return work.messages.say(NothingToDelete{NothingToDelete::What::kLandmark}, time);
   }
@@ -190,7 +190,7 @@ void Landmarking::drop_landmark(OperationInWork& work, Timestamp time) {
   }
 }
 
-void Landmarking::verify_again(OperationInWork& work, Verifying& verifying, Guiding& guiding,
+void Landmarking::verify_again(SessionState& work, Verifying& verifying, Guiding& guiding,
                                Timestamp time) const {
   LevelState& level = work.level();
   level.accepted = false;
@@ -200,12 +200,12 @@ void Landmarking::verify_again(OperationInWork& work, Verifying& verifying, Guid
   work.messages.say(LandmarkMoved{last_->off_m, last_->limit_m, work.anchored()}, time);
 }
 
-StepState Landmarking::state(const OperationInWork& work, const GuideChecks& guide) const {
+StepState Landmarking::state(const SessionState& work, const GuideChecks& guide) const {
   const LevelState& level = work.level();
   if (!level.registration) {
     return {};
   }
-  if (!work.options.steps.dimple()) {
+  if (!work.options.steps.touches_landmark()) {
     return ByEye{};
   }
   return LandmarkSoFar{level.landmark.has_value(), last_, &guide.tips(), &guide.axis()};
@@ -299,7 +299,13 @@ void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_
   std::string& out = text.out;
   if (!landmark.last) {
     text.begin(Importance::kNext, separator);
-    out += translated(landmark.recorded ? words::kTouchDimple : words::kMakeDimple);
+    if (separator.empty()) {
+      // The step before it is called landmark.
+      out += translated(landmark.recorded ? translatable("touch it")
+                                          : translatable("touch a new one"));
+    } else {
+      out += translated(landmark.recorded ? words::kTouchTheLandmark : words::kTouchANewLandmark);
+    }
     return;
   }
   if (landmark.last->missing > 0) {
@@ -322,7 +328,7 @@ void write(PartedText text, const LandmarkMissing& m) {
   std::string& out = text.out;
   text.begin(Importance::kNext);
   out.append(translated(words::kNotYet)).append(" ");
-  out += translated(m.recorded ? words::kTouchDimple : words::kMakeDimple);
+  out += translated(m.recorded ? words::kTouchTheLandmark : words::kTouchANewLandmark);
 }
 
 void write(PartedText text, const LandmarkMoved& m) {
@@ -343,7 +349,7 @@ void write(PartedText text, const BoneUnchecked& m) {
   append_printed(out, translated("bone not checked for %.0f s, the map may have drifted %s"),
                  m.for_s, format_mm(m.drift_m).c_str());
   text.begin(Importance::kNext, ": ");
-  out += translated(words::kTouchDimple);
+  out += translated(words::kTouchTheLandmark);
 }
 
 }  // namespace orthonav::engine

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "engine/session/log/operation_json.h"
-#include "engine/session/operation_in_work.h"
+#include "engine/session/session_state.h"
 #include "engine/session/text/status_line.h"
 
 namespace orthonav::engine {
@@ -21,13 +21,13 @@ class Verifying;
 class Landmarking {
  public:
   /// Takes the pressed place as the landmark, or as the guide's tip in it.
-  [[nodiscard]] std::optional<Event> touch_landmark(OperationInWork& work, GuideChecks& guide,
+  [[nodiscard]] std::optional<Event> touch_landmark(SessionState& work, GuideChecks& guide,
                                                     Timestamp time);
   /// Takes back the touches since the step began, and the landmark if they recorded it.
-  void drop_landmark(OperationInWork& work, Timestamp time);
+  void drop_landmark(SessionState& work, Timestamp time);
   /// The landmark has moved. It is kept: the next accepted registration must put the bone where the
   /// landmark was touched first.
-  void verify_again(OperationInWork& work, Verifying& verifying, Guiding& guiding,
+  void verify_again(SessionState& work, Verifying& verifying, Guiding& guiding,
                     Timestamp time) const;
 
   /// Records the level's landmark, or compares with it, once touched often enough; or returns why
@@ -39,7 +39,7 @@ class Landmarking {
                                                                bool anchored, Timestamp time);
   /// Whether the landmark was touched since the step began, and found where it was.
   [[nodiscard]] bool touched() const { return last_ && last_->held(); }
-  [[nodiscard]] StepState state(const OperationInWork& work, const GuideChecks& guide) const;
+  [[nodiscard]] StepState state(const SessionState& work, const GuideChecks& guide) const;
 
  private:
   [[nodiscard]] std::optional<TouchRefusal> refusal_of(const LevelState& level,
@@ -53,7 +53,7 @@ class Landmarking {
   [[nodiscard]] Point<Vertebra> mean_place() const { return {sum_m_ / touches_}; }
   [[nodiscard]] double sd_m() const { return std::sqrt(variances_m2_) / touches_; }
   [[nodiscard]] std::optional<nav::PressedPlace> guide_tip_in_landmark(
-      OperationInWork& work, const TouchedPlace& pointer) const;
+      SessionState& work, const TouchedPlace& pointer) const;
   [[nodiscard]] nav::PressedPlace place_in_world(const LevelState& level) const;
   void forget_touches();
 

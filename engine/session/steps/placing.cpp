@@ -34,7 +34,7 @@ Placing::Placing(const SessionOptions& options)
   recent_.reserve(2 * kMostRecent);
 }
 
-void Placing::collect(OperationInWork& work) {
+void Placing::collect(SessionState& work) {
   const WatchedTools& tools = work.tools;
   const nav::TrackedPose& pose = tools.watch(tools.guide()).newest();
   const nav::ToolGeometry& guide = tools.geometry(tools.guide());
@@ -49,7 +49,7 @@ void Placing::collect(OperationInWork& work) {
   recent_.push_back(pose.value);
 }
 
-void Placing::measure(OperationInWork& work, const Guiding& guiding, GuideChecks& checks,
+void Placing::measure(SessionState& work, const Guiding& guiding, GuideChecks& checks,
                       bool reference_hidden, Timestamp time) {
   const ToolWatch& guide = work.tools.watch(work.tools.guide());
   std::optional<TouchRefusal> refusal;
@@ -71,7 +71,7 @@ void Placing::measure(OperationInWork& work, const Guiding& guiding, GuideChecks
   }
 }
 
-std::optional<TouchRefusal> Placing::take(OperationInWork& work, std::size_t screw,
+std::optional<TouchRefusal> Placing::take(SessionState& work, std::size_t screw,
                                           const ToolErrors& guide_errors) {
   const LevelState& level = work.level();
   const nav::TrackedPose& pose = work.tools.watch(work.tools.guide()).last_measured_pose();
@@ -161,22 +161,22 @@ std::optional<TouchRefusal> Placing::refusal_of(const nav::PlacedAxis& axis) con
   return std::nullopt;
 }
 
-void Placing::tell(OperationInWork& work, std::size_t screw, Timestamp time) const {
+void Placing::tell(SessionState& work, std::size_t screw, Timestamp time) const {
   work.observer->wire_measured(time, work.level(), screw, *wire_);
 }
 
-void Placing::keep(OperationInWork& work, std::size_t screw, Timestamp time) {
+void Placing::keep(SessionState& work, std::size_t screw, Timestamp time) {
   wire_->kept = true;
   tell(work, screw, time);
 }
 
-void Placing::judge_again(OperationInWork& work, std::size_t screw, Timestamp time) {
+void Placing::judge_again(SessionState& work, std::size_t screw, Timestamp time) {
   put(nav::placed_axis(work.level().plan.screws[screw], measured_->sleeve, measured_->uncertainty,
                        measured_->errors));
   tell(work, screw, time);
 }
 
-std::optional<FollowUpEvent> Placing::judge_redo(OperationInWork& work, Guiding& guiding,
+std::optional<FollowUpEvent> Placing::judge_redo(SessionState& work, Guiding& guiding,
                                                  Timestamp time) {
   LevelState& level = work.level();
   const std::size_t screw = guiding.screw();
@@ -221,7 +221,7 @@ std::optional<nav::OtherEntry> Placing::other_entry(const LevelState& level, std
 }
 
 void Placing::write(Step step, Guidance& out) const {
-  out.wire = step == Step::kPlaced && wire_ ? &*wire_ : nullptr;
+  out.wire = step == Step::kMeasureWire && wire_ ? &*wire_ : nullptr;
 }
 
 StepState Placing::state() const { return WireSoFar{wire_ ? &*wire_ : nullptr, no_other_entry_}; }
@@ -329,7 +329,7 @@ void write(PartedText text, const ScrewRedone& m) {
   append_printed(out, translated("new entry %s from the hole, clearance %s"),
                  format_mm(m.from_hole_m).c_str(), format_mm(m.clearance_m).c_str());
   text.begin(Importance::kNext, ": ");
-  out += translated("take the wire out and touch the dimple");
+  out += translated("take the wire out and touch the landmark");
 }
 
 }  // namespace orthonav::engine

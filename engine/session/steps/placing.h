@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/session/log/operation_json.h"
-#include "engine/session/operation_in_work.h"
+#include "engine/session/session_state.h"
 #include "engine/session/text/messages.h"
 #include "engine/session/text/status_line.h"
 #include "engine/session/tool_in_vertebra.h"
@@ -25,19 +25,19 @@ class Placing {
   explicit Placing(const SessionOptions& options);
 
   /// Once for each pair of the step.
-  void collect(OperationInWork& work);
+  void collect(SessionState& work);
   /// Measures the wire of the selected screw by what was touched, or says why that does not count.
   /// The level has a registration. `reference_hidden`: none is seen, where one is in use.
-  void measure(OperationInWork& work, const Guiding& guiding, GuideChecks& checks,
+  void measure(SessionState& work, const Guiding& guiding, GuideChecks& checks,
                bool reference_hidden, Timestamp time);
   /// The surgeon keeps a wire that lies beyond a limit, undecided so far.
-  void keep(OperationInWork& work, std::size_t screw, Timestamp time);
+  void keep(SessionState& work, std::size_t screw, Timestamp time);
   /// Another entry for the same screw. The landmark is touched first: whatever deflected the wire
   /// may have moved the bone against its registration.
-  [[nodiscard]] std::optional<FollowUpEvent> judge_redo(OperationInWork& work, Guiding& guiding,
+  [[nodiscard]] std::optional<FollowUpEvent> judge_redo(SessionState& work, Guiding& guiding,
                                                         Timestamp time);
   /// The plan was changed: the measured wire is compared with the new plan.
-  void judge_again(OperationInWork& work, std::size_t screw, Timestamp time);
+  void judge_again(SessionState& work, std::size_t screw, Timestamp time);
 
   /// The wire as last measured.
   [[nodiscard]] const std::optional<PlacedWire>& wire() const { return wire_; }
@@ -57,11 +57,11 @@ class Placing {
   /// Pairs in which the guide was measured: ten seconds at 30 a second.
   static constexpr std::size_t kMostRecent = 300;
 
-  [[nodiscard]] std::optional<TouchRefusal> take(OperationInWork& work, std::size_t screw,
+  [[nodiscard]] std::optional<TouchRefusal> take(SessionState& work, std::size_t screw,
                                                  const ToolErrors& guide_errors);
   /// Sets the measured wire, with its axis relative to a plan.
   void put(const nav::PlacedAxis& axis);
-  void tell(OperationInWork& work, std::size_t screw, Timestamp time) const;
+  void tell(SessionState& work, std::size_t screw, Timestamp time) const;
   /// Whether "delete" must be said again: a screw's first redo needs no confirmation.
   [[nodiscard]] bool must_confirm(int redone);
   /// Where the screw may enter instead of through the hole of the wire, which was measured.

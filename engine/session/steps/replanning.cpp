@@ -214,7 +214,7 @@ ScrewReplanned put_new(LevelState& level, std::size_t screw, const nav::ScrewPla
   return put(level, screw, plan);
 }
 
-std::variant<std::size_t, ReplanRefusal> screw_to_replan(const OperationInWork& work,
+std::variant<std::size_t, ReplanRefusal> screw_to_replan(const SessionState& work,
                                                          const Guiding& guiding,
                                                          const Placing& placing) {
   if (work.step == Step::kGuide) {
@@ -227,7 +227,7 @@ std::variant<std::size_t, ReplanRefusal> screw_to_replan(const OperationInWork& 
         return ReplanRefusal{Kind::kDrilling};
     }
   }
-  if (work.step == Step::kPlaced) {
+  if (work.step == Step::kMeasureWire) {
     return placing.undecided() ? std::variant<std::size_t, ReplanRefusal>(guiding.screw())
                                : ReplanRefusal{Kind::kWireIn};
   }
@@ -240,7 +240,7 @@ std::variant<std::size_t, ReplanRefusal> screw_to_replan(const OperationInWork& 
 
 }  // namespace
 
-void Replanning::replan(OperationInWork& work, Guiding& guiding, Placing& placing, Timestamp time) {
+void Replanning::replan(SessionState& work, Guiding& guiding, Placing& placing, Timestamp time) {
   const auto screw = screw_to_replan(work, guiding, placing);
   if (const auto* refusal = std::get_if<ReplanRefusal>(&screw)) {
     return take(*refusal, work, guiding, placing, time);
@@ -248,8 +248,8 @@ void Replanning::replan(OperationInWork& work, Guiding& guiding, Placing& placin
   take(change(work.level(), std::get<std::size_t>(screw)), work, guiding, placing, time);
 }
 
-bool Replanning::pending(const OperationInWork& work, const Guiding& guiding,
-                         const Placing& placing, Timestamp said) const {
+bool Replanning::pending(const SessionState& work, const Guiding& guiding, const Placing& placing,
+                         Timestamp said) const {
   if (!question_ || !question_->shown_at || said < *question_->shown_at ||
       said > *question_->shown_at + work.options.message_for ||
       question_->level != work.level().plan.label) {
@@ -260,13 +260,13 @@ bool Replanning::pending(const OperationInWork& work, const Guiding& guiding,
   return index != nullptr && *index == question_->screw;
 }
 
-void Replanning::take_breach(OperationInWork& work, Guiding& guiding, Placing& placing,
+void Replanning::take_breach(SessionState& work, Guiding& guiding, Placing& placing,
                              Timestamp time) {
   const Question question = *std::exchange(question_, std::nullopt);
   take(put_new(work.level(), question.screw, question.plan), work, guiding, placing, time);
 }
 
-void Replanning::take(const Outcome& outcome, OperationInWork& work, Guiding& guiding,
+void Replanning::take(const Outcome& outcome, SessionState& work, Guiding& guiding,
                       Placing& placing, Timestamp time) const {
   if (const auto* refusal = std::get_if<ReplanRefusal>(&outcome)) {
     return work.messages.say(*refusal, time);
@@ -274,7 +274,7 @@ void Replanning::take(const Outcome& outcome, OperationInWork& work, Guiding& gu
   const auto& done = std::get<ScrewReplanned>(outcome);
   work.messages.say(done, time);
   work.observer->replanned(time, work.level(), asked_, done);
-  if (work.step != Step::kPlaced) {
+  if (work.step != Step::kMeasureWire) {
     // No frame may show a number, a depth or an alarm of the previous plan.
     return guiding.forget_guidance();
   }

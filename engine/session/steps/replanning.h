@@ -8,8 +8,8 @@
 
 #include "base/time.h"
 #include "engine/session/log/operation_json.h"
-#include "engine/session/operation_in_work.h"
 #include "engine/session/replan.h"
+#include "engine/session/session_state.h"
 #include "engine/session/text/status_line.h"
 #include "nav/guidance/screw.h"
 #include "nav/registration/registration.h"
@@ -36,15 +36,15 @@ class Replanning {
   /// Applies it to the current screw: the next one in `accepted`, the selected one in `guide`, and
   /// in `placed` one whose wire waits for a decision. Otherwise says why not; a change that would
   /// leave the cortex waits for consent. The level has a registration.
-  void replan(OperationInWork& work, Guiding& guiding, Placing& placing, Timestamp time);
+  void replan(SessionState& work, Guiding& guiding, Placing& placing, Timestamp time);
   /// A frame with this message, null for none, is displayed at `display_time`.
   void show(const Message* message, Timestamp display_time);
   /// Whether a breach of the current screw may be taken by what was said then: after the question
   /// was shown, and before it expired.
-  [[nodiscard]] bool pending(const OperationInWork& work, const Guiding& guiding,
+  [[nodiscard]] bool pending(const SessionState& work, const Guiding& guiding,
                              const Placing& placing, Timestamp said) const;
   /// Makes the pending change.
-  void take_breach(OperationInWork& work, Guiding& guiding, Placing& placing, Timestamp time);
+  void take_breach(SessionState& work, Guiding& guiding, Placing& placing, Timestamp time);
   void withdraw_question() { question_.reset(); }
 
  private:
@@ -58,7 +58,7 @@ class Replanning {
   [[nodiscard]] Outcome change(LevelState& level, std::size_t screw);
   [[nodiscard]] Outcome undo(LevelState& level, std::size_t screw) const;
   /// Reports the outcome, and applies it to guidance and to the wire's assessment.
-  void take(const Outcome& outcome, OperationInWork& work, Guiding& guiding, Placing& placing,
+  void take(const Outcome& outcome, SessionState& work, Guiding& guiding, Placing& placing,
             Timestamp time) const;
 
   ReplanLimits limits_;

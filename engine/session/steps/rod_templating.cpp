@@ -120,7 +120,7 @@ void instruct(RodState& rod, const SessionOptions& options, std::span<const Leve
 
 /// Makes the template from the present heads, and the instructions to bend it, or says why there is
 /// no template.
-void bend(RodState& rod, OperationInWork& work, Timestamp time) {
+void bend(RodState& rod, SessionState& work, Timestamp time) {
   rod.rod.reset();
   rod.instructions.reset();
   rod.no_instructions.clear();
@@ -160,12 +160,12 @@ bool any_rod_planned(std::span<const LevelState> levels) {
 RodTemplating::RodTemplating(bool left_planned, bool right_planned)
     : planned_{left_planned, right_planned}, current_(right_planned && !left_planned ? 1 : 0) {}
 
-std::optional<Event> RodTemplating::begin(OperationInWork& work) const {
+std::optional<Event> RodTemplating::begin(SessionState& work) const {
   work.touches.drop();
   return left_to_do(work.state) ? std::nullopt : std::optional(Event::kNoSideLeft);
 }
 
-void RodTemplating::record_head(OperationInWork& work, Timestamp time) {
+void RodTemplating::record_head(SessionState& work, Timestamp time) {
   const TouchedPlace place = take_place(work, time);
   const auto* head = std::get_if<nav::PressedPlace>(&place);
   if (!head) {
@@ -189,7 +189,7 @@ void RodTemplating::record_head(OperationInWork& work, Timestamp time) {
   work.observer->head_recorded(time, rod.side, std::get<HeadTouch>(added));
 }
 
-void RodTemplating::drop_head(OperationInWork& work, Timestamp time) {
+void RodTemplating::drop_head(SessionState& work, Timestamp time) {
   RodState& rod = current(work);
   const auto dropped = rod.touched.drop_last();
   if (!dropped) {
@@ -205,7 +205,7 @@ void RodTemplating::drop_head(OperationInWork& work, Timestamp time) {
   work.observer->head_dropped(time, rod.side, *dropped);
 }
 
-Event RodTemplating::finish_rod(OperationInWork& work, Timestamp time) {
+Event RodTemplating::finish_rod(SessionState& work, Timestamp time) {
   RodState& rod = current(work);
   if (rod.first_touch && rod.rod) {
     rod.took_s = seconds(time - *rod.first_touch);
@@ -223,7 +223,7 @@ bool RodTemplating::finish(OperationState& operation) {
   return another;
 }
 
-HeadsSoFar RodTemplating::state(const OperationInWork& work) const {
+HeadsSoFar RodTemplating::state(const SessionState& work) const {
   const RodState& now = work.state.rods[current_];
   HeadsSoFar out;
   out.unplanned = work.rods_alone();
@@ -242,7 +242,7 @@ HeadsSoFar RodTemplating::state(const OperationInWork& work) const {
   return out;
 }
 
-void RodTemplating::write(const OperationInWork& work, Guidance& out) const {
+void RodTemplating::write(const SessionState& work, Guidance& out) const {
   out.rods = work.state.rods;
   out.rods_moved_away = moved_away_;
 }

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "engine/session/log/operation_json.h"
-#include "engine/session/operation_in_work.h"
+#include "engine/session/session_state.h"
 #include "engine/session/text/status_line.h"
 #include "nav/guidance/rod_cut.h"
 
@@ -26,14 +26,14 @@ class RodTemplating {
 
   /// Begins the first rod or the next one; an earlier press does not count as a touch of its heads.
   /// `kNoSideLeft` if all were done before the operation was resumed.
-  [[nodiscard]] std::optional<Event> begin(OperationInWork& work) const;
+  [[nodiscard]] std::optional<Event> begin(SessionState& work) const;
   /// Records the touched place as the next head, or as one more touch of the head it is at.
-  void record_head(OperationInWork& work, Timestamp time);
+  void record_head(SessionState& work, Timestamp time);
   /// Takes the last touch back.
-  void drop_head(OperationInWork& work, Timestamp time);
+  void drop_head(SessionState& work, Timestamp time);
   /// The rod is done; false if no other is left to do.
   bool finish(OperationState& operation);
-  [[nodiscard]] Event finish_rod(OperationInWork& work, Timestamp time);
+  [[nodiscard]] Event finish_rod(SessionState& work, Timestamp time);
   void move_away() { moved_away_ = !moved_away_; }
   /// Passes over the rods that a resumed operation has finished.
   void resume(const OperationState& operation);
@@ -46,11 +46,11 @@ class RodTemplating {
   [[nodiscard]] nav::Side side() const {
     return current_ == 0 ? nav::Side::kLeft : nav::Side::kRight;
   }
-  void write(const OperationInWork& work, Guidance& out) const;
-  [[nodiscard]] HeadsSoFar state(const OperationInWork& work) const;
+  void write(const SessionState& work, Guidance& out) const;
+  [[nodiscard]] HeadsSoFar state(const SessionState& work) const;
 
  private:
-  [[nodiscard]] RodState& current(OperationInWork& work) const { return work.state.rods[current_]; }
+  [[nodiscard]] RodState& current(SessionState& work) const { return work.state.rods[current_]; }
 
   std::array<bool, 2> planned_;  ///< left, right
   std::size_t current_ = 0;

@@ -45,7 +45,7 @@ std::vector<float> smoothed(std::span<const float> each_m) {
 
 }  // namespace
 
-Verifying::Verifying(OperationInWork& work, Timestamp registered)
+Verifying::Verifying(SessionState& work, Timestamp registered)
     : options_(work.options),
       by_touch_(work.method.verification == Verification::kByTouch),
       anchored_(work.anchored()),
@@ -151,7 +151,7 @@ void Verifying::put(const nav::Registration& registration, LevelState& level) {
   level.predicted = nav::predicted_errors(registration, level.plan.screws);
 }
 
-void Verifying::record_check(OperationInWork& work, Timestamp time) {
+void Verifying::record_check(SessionState& work, Timestamp time) {
   if (const auto refusal = add(work.level(), take_place(work, time), time)) {
     work.messages.say(TouchNotRecorded{TouchNotRecorded::What::kCheckPoint, *refusal}, time);
   } else {
@@ -176,7 +176,7 @@ std::optional<TouchRefusal> Verifying::add(LevelState& level, const TouchedPlace
   return std::nullopt;
 }
 
-void Verifying::drop_check(OperationInWork& work, Timestamp time) {
+void Verifying::drop_check(SessionState& work, Timestamp time) {
   LevelState& level = work.level();
   if (level.check_points.empty()) {
     return work.messages.say(NothingToDelete{NothingToDelete::What::kCheckPoint}, time);
@@ -187,7 +187,7 @@ void Verifying::drop_check(OperationInWork& work, Timestamp time) {
   work.observer->check_point_dropped(time, level);
 }
 
-void Verifying::accept(OperationInWork& work, Timestamp time) const {
+void Verifying::accept(SessionState& work, Timestamp time) const {
   LevelState& level = work.level();
   if (joined_) {
     put(joined_->registration, level);
@@ -199,7 +199,7 @@ void Verifying::accept(OperationInWork& work, Timestamp time) const {
   work.observer->accepted(time, level, shown_);
 }
 
-void Verifying::write(const OperationInWork& work, Guidance& out) {
+void Verifying::write(const SessionState& work, Guidance& out) {
   out.residuals_m = {};
   out.unstroked = {};
   out.to_check = {};
@@ -221,7 +221,7 @@ void Verifying::note_shown(const StatusLine& line) {
   append_status(shown_, line);
 }
 
-StepState Verifying::state(const OperationInWork& work) const {
+StepState Verifying::state(const SessionState& work) const {
   const LevelState& level = work.level();
   if (!level.registration) {
     return {};

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/session/log/operation_json.h"
-#include "engine/session/operation_in_work.h"
+#include "engine/session/session_state.h"
 #include "engine/session/text/status_line.h"
 #include "nav/registration/pressed_places.h"
 
@@ -20,28 +20,28 @@ class Verifying {
   /// a patient reference many places are asked for; on the map, which moves while places are
   /// touched, three that are far apart are enough, and each is assumed to lie on the model's
   /// surface.
-  Verifying(OperationInWork& work, Timestamp registered);
+  Verifying(SessionState& work, Timestamp registered);
 
   /// Verifies the accepted registration again after a movement by `moved_m`: the places touched
   /// before are no longer checks. With a reference they remain in the estimate.
   void begin_again(LevelState& level, double moved_m);
   /// Adds the touched place to the level's check points.
-  void record_check(OperationInWork& work, Timestamp time);
+  void record_check(SessionState& work, Timestamp time);
   /// Takes the last check point back.
-  void drop_check(OperationInWork& work, Timestamp time);
+  void drop_check(SessionState& work, Timestamp time);
   /// Whether the registration was shown by then: what was said before can't be a judgement of it.
   [[nodiscard]] bool shown_by(Timestamp said) const { return visible_at_ && *visible_at_ <= said; }
   /// The check points confirm it, or the eye alone verifies.
   [[nodiscard]] bool passed() const { return verdict_.passed || !by_touch_; }
   [[nodiscard]] const nav::CheckVerdict& verdict() const { return verdict_; }
   /// The level's registration includes the touched places and is in force from now on.
-  void accept(OperationInWork& work, Timestamp time) const;
+  void accept(SessionState& work, Timestamp time) const;
 
   /// In its step, the registration is shown from now on, unless something hangs.
-  void write(const OperationInWork& work, Guidance& out);
+  void write(const SessionState& work, Guidance& out);
   /// Notes the status line shown with the registration.
   void note_shown(const StatusLine& line);
-  [[nodiscard]] StepState state(const OperationInWork& work) const;
+  [[nodiscard]] StepState state(const SessionState& work) const;
 
  private:
   [[nodiscard]] std::optional<TouchRefusal> add(LevelState& level, const TouchedPlace& place,

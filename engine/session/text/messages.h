@@ -81,7 +81,7 @@ struct TouchNotRecorded {
 struct LandmarkMissing {
   bool recorded = false;  ///< it was recorded before
 };
-/// The guide's tip was corrected by this distance from the pointer's in the same dimple.
+/// The guide's tip was corrected by this distance from the pointer's at the same landmark.
 struct TipCorrected {
   double by_m = 0.0;
 };

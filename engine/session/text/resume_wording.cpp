@@ -42,7 +42,7 @@ std::string to_verify(const LevelState& level) {
   }
   const bool landmark = level.accepted && level.landmark;
   return level.plan.label + (landmark
-                                 ? ": accepted before, not verified: touch its dimple"
+                                 ? ": accepted before, not verified: touch its landmark"
                                  : ": registered before, not verified: touch its check points");
 }
 
@@ -60,7 +60,7 @@ std::vector<std::string> lost(const LevelState& before, const LevelState& after,
     parts.emplace_back(before.accepted ? "its accepted registration" : "its registration");
   }
   if (before.landmark && !after.landmark) {
-    parts.emplace_back("its dimple");
+    parts.emplace_back("its landmark");
   }
   if (!before.check_points.empty()) {
     parts.push_back(how_many(before.check_points.size(), "check point"));
@@ -84,7 +84,7 @@ std::vector<std::string> lost(const OperationLog::Found& found, const LoggedOper
     }
   }
   if (found.operation.guide_corrected) {
-    lines.emplace_back("lost: the correction of the guide, compare it in the dimple again");
+    lines.emplace_back("lost: the correction of the guide, compare it at the landmark again");
   }
   if (found.operation.dropped_bytes > 0) {
     lines.push_back("lost: " + how_many(found.operation.dropped_bytes, "byte") +

@@ -39,7 +39,7 @@ ChecksAsked asked_in(const Message& message) {
 
 ChecksAsked asked_about(const WireSoFar& state) {
   if (state.wire == nullptr) {
-    return ChecksAsked::kMeasureWire;
+    return ChecksAsked::kRecordWire;
   }
   if (!state.wire->undecided()) {
     return ChecksAsked::kPassed;

@@ -250,7 +250,7 @@ struct MessageWriter {
     text.begin(Importance::kMessage);
     constexpr std::array<const char*, 5> kTexts = {
         translatable("nothing to delete"), translatable("no check point to delete"),
-        translatable("no head to delete"), translatable("no touch of the dimple to delete"),
+        translatable("no head to delete"), translatable("no touch of the landmark to delete"),
         translatable("measure the wire first")};
     out += translated(kTexts[static_cast<std::size_t>(m.what)]);
   }
@@ -258,7 +258,7 @@ struct MessageWriter {
     text.begin(Importance::kMessage);
     constexpr std::array<const char*, 5> kTexts = {
         translatable("check point not recorded:"), translatable("head not recorded:"),
-        translatable("dimple not recorded:"), translatable("guide's tip not recorded:"),
+        translatable("landmark not recorded:"), translatable("guide's tip not recorded:"),
         translatable("wire not recorded:")};
     out.append(translated(kTexts[static_cast<std::size_t>(m.what)])).append(" ");
     append_refusal(out, m.why);
@@ -332,9 +332,9 @@ constexpr std::string_view kBetweenParts = " | ";
 
 std::string_view word_of(Step step) {
   constexpr std::array<const char*, kStepCount> kWords = {
-      translatable("setup"),  translatable("digitize"), translatable("registering"),
-      translatable("verify"), translatable("accepted"), translatable("guide"),
-      translatable("placed"), translatable("rod"),      translatable("done")};
+      translatable("setup"),   translatable("digitize"), translatable("registering"),
+      translatable("verify"),  translatable("landmark"), translatable("guide"),
+      translatable("measure"), translatable("rod"),      translatable("done")};
   static_assert(kWords.back() != nullptr, "every step has its word");
   return translated(kWords[static_cast<std::size_t>(step)]);
 }

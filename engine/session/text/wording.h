@@ -109,8 +109,8 @@ inline constexpr const char* kToolLost = translatable("tool lost");
 inline constexpr const char* kHeadNotLocated =
     translatable("Head not located: nothing is shown in the world");
 inline constexpr const char* kNotYet = translatable("not yet:");
-inline constexpr const char* kTouchDimple = translatable("touch the dimple");
-inline constexpr const char* kMakeDimple = translatable("touch a new dimple");
+inline constexpr const char* kTouchTheLandmark = translatable("touch the landmark");
+inline constexpr const char* kTouchANewLandmark = translatable("touch a new landmark");
 inline constexpr const char* kKeepOrRedo =
     translatable("say accept result to keep it, delete last to redo it");
 inline constexpr const char* kNoOtherEntry =

@@ -75,14 +75,14 @@ enum class Action : std::uint8_t {
   kDropCheck,
   kAccept,
   kClearLevel,
-  kTouchLandmark,
+  kRecordLandmark,
   kDropLandmark,
   kExpectLandmark,
   kVerifyAgain,
   kCorrectGuide,
   kSelectScrew,
   kExpectWire,
-  kMeasureWire,
+  kRecordWire,
   kKeepWire,
   kJudgeRedo,
   kFinishScrew,
@@ -119,13 +119,13 @@ inline constexpr std::size_t kActionCount = static_cast<std::size_t>(Action::kFo
 struct MethodSteps {
   bool check_points = true;  ///< places of the bone touched in `verify` join the registration
   bool landmark = true;      ///< the landmark is touched again before each screw
-  bool tips = true;          ///< the guide's tip is compared with the pointer's in the landmark
+  bool tips = true;          ///< the guide's tip is compared with the pointer's at the landmark
   bool wire = true;          ///< the placed wire is measured with the sleeve
   bool redo = true;          ///< a wire beyond a limit is redone through another entry
   bool axis = true;          ///< the guide's axis is corrected by its sleeve, turned on a wire
 
   /// Whether anything is touched in `accepted`.
-  [[nodiscard]] constexpr bool dimple() const { return landmark || tips; }
+  [[nodiscard]] constexpr bool touches_landmark() const { return landmark || tips; }
   [[nodiscard]] static constexpr MethodSteps none() {
     return {false, false, false, false, false, false};
   }
@@ -216,7 +216,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kDigitize, kSayDelete, kDropRegion, kDigitize},
     {kDigitize, kDoubleClick, kRegister, kRegistering},
     {kDigitize, kRegistrationRestored, kShowRegistration, kVerify},
-    {kDigitize, kAcceptanceRestored, kExpectLandmark, kAccepted},
+    {kDigitize, kAcceptanceRestored, kExpectLandmark, kTouchLandmark},
     {kDigitize, kNoScrewLeft, kBeginRod, kRod},
     {kDigitize, kNoRodPlanned, kIgnore, kDone},
 
@@ -239,46 +239,46 @@ inline constexpr auto kRules = std::to_array<Rule>({
 
     // Before each screw the landmark is touched: recorded the first time, found again from then on.
     // One that is not where it was takes the acceptance back.
-    {kAccepted, kSayNext, kExplainLandmark, kAccepted},
-    {kAccepted, kLandmarkMoved, kVerifyAgain, kVerify},
-    {kAccepted, kSayReplan, kReplan, kAccepted},
-    {kAccepted, kSayReject, kClearLevel, kDigitize},
-    {kAccepted, kPress, kBeginTouch, kAccepted},
-    {kAccepted, kRelease, kEndTouch, kAccepted},
-    {kAccepted, kClick, kTouchLandmark, kAccepted},
-    {kAccepted, kDoubleClick, kIgnore, kAccepted},
-    {kAccepted, kHold, kDropTouch, kAccepted},
-    {kAccepted, kSayDelete, kDropLandmark, kAccepted},
+    {kTouchLandmark, kSayNext, kExplainLandmark, kTouchLandmark},
+    {kTouchLandmark, kLandmarkMoved, kVerifyAgain, kVerify},
+    {kTouchLandmark, kSayReplan, kReplan, kTouchLandmark},
+    {kTouchLandmark, kSayReject, kClearLevel, kDigitize},
+    {kTouchLandmark, kPress, kBeginTouch, kTouchLandmark},
+    {kTouchLandmark, kRelease, kEndTouch, kTouchLandmark},
+    {kTouchLandmark, kClick, kRecordLandmark, kTouchLandmark},
+    {kTouchLandmark, kDoubleClick, kIgnore, kTouchLandmark},
+    {kTouchLandmark, kHold, kDropTouch, kTouchLandmark},
+    {kTouchLandmark, kSayDelete, kDropLandmark, kTouchLandmark},
 
     // A registration that turns out wrong while guiding can be thrown away at any screw. The screw
     // is changed until its drill is set; one that would leave the cortex wants an "accept". Where the
     // map has drifted for long, the landmark is touched again before a drill is set.
-    {kGuide, kSayNext, kExpectWire, kPlaced},
+    {kGuide, kSayNext, kExpectWire, kMeasureWire},
     {kGuide, kSayReject, kClearLevel, kDigitize},
     {kGuide, kSayTwin, kToggleTwin, kGuide},
     {kGuide, kSayNumbers, kToggleNumbers, kGuide},
-    {kGuide, kBoneUnchecked, kExpectLandmark, kAccepted},
+    {kGuide, kBoneUnchecked, kExpectLandmark, kTouchLandmark},
     {kGuide, kSayDrill, kBeginDrill, kGuide},
     {kGuide, kSayReplan, kReplan, kGuide},
     {kGuide, kClick, kToggleNumbers, kGuide},
 
     // The sleeve is set over the wire and clicked. A wire beyond a limit is kept by a word, redone
     // through another entry once the landmark was touched again, or the plan is changed to suit it.
-    {kPlaced, kSayNext, kFinishScrew, kPlaced},
-    {kPlaced, kSayDelete, kJudgeRedo, kPlaced},
-    {kPlaced, kSayReplan, kReplan, kPlaced},
-    {kPlaced, kSayReject, kClearLevel, kDigitize},
-    {kPlaced, kScrewRedone, kExpectLandmark, kAccepted},
-    {kPlaced, kNoOtherEntry, kExplainNoOtherEntry, kPlaced},
-    {kPlaced, kAnotherScrew, kExpectLandmark, kAccepted},
-    {kPlaced, kAnotherLevel, kBeginLevel, kDigitize},
-    {kPlaced, kNoScrewLeft, kBeginRod, kRod},
-    {kPlaced, kNoRodPlanned, kIgnore, kDone},
-    {kPlaced, kPress, kBeginTouch, kPlaced},
-    {kPlaced, kRelease, kEndTouch, kPlaced},
-    {kPlaced, kClick, kMeasureWire, kPlaced},
-    {kPlaced, kDoubleClick, kIgnore, kPlaced},
-    {kPlaced, kHold, kDropTouch, kPlaced},
+    {kMeasureWire, kSayNext, kFinishScrew, kMeasureWire},
+    {kMeasureWire, kSayDelete, kJudgeRedo, kMeasureWire},
+    {kMeasureWire, kSayReplan, kReplan, kMeasureWire},
+    {kMeasureWire, kSayReject, kClearLevel, kDigitize},
+    {kMeasureWire, kScrewRedone, kExpectLandmark, kTouchLandmark},
+    {kMeasureWire, kNoOtherEntry, kExplainNoOtherEntry, kMeasureWire},
+    {kMeasureWire, kAnotherScrew, kExpectLandmark, kTouchLandmark},
+    {kMeasureWire, kAnotherLevel, kBeginLevel, kDigitize},
+    {kMeasureWire, kNoScrewLeft, kBeginRod, kRod},
+    {kMeasureWire, kNoRodPlanned, kIgnore, kDone},
+    {kMeasureWire, kPress, kBeginTouch, kMeasureWire},
+    {kMeasureWire, kRelease, kEndTouch, kMeasureWire},
+    {kMeasureWire, kClick, kRecordWire, kMeasureWire},
+    {kMeasureWire, kDoubleClick, kIgnore, kMeasureWire},
+    {kMeasureWire, kHold, kDropTouch, kMeasureWire},
 
     // Heads are touched with the pointer's tip; the tip is averaged while the button is down. A
     // button held too long makes no click, so its touch is dropped and the surgeon told.
@@ -306,17 +306,17 @@ inline constexpr auto kRules = std::to_array<Rule>({
 /// "accept" and "next" mean what was asked last: a breach first, since its question is the newest.
 inline constexpr auto kStateRules = std::to_array<StateRule>({
     {kVerify, kNotShown, kSayAccept, kExplainNotShown, kVerify},
-    {kVerify, kChecksPassed, kSayAccept, kAccept, kAccepted},
+    {kVerify, kChecksPassed, kSayAccept, kAccept, kTouchLandmark},
 
-    {kAccepted, kBreachPending, kSayAccept, kTakeBreach, kAccepted},
-    {kAccepted, kCorrectionOffered, kSayAccept, kCorrectGuide, kAccepted},
-    {kAccepted, kLandmarkTouched, kSayNext, kSelectScrew, kGuide},
+    {kTouchLandmark, kBreachPending, kSayAccept, kTakeBreach, kTouchLandmark},
+    {kTouchLandmark, kCorrectionOffered, kSayAccept, kCorrectGuide, kTouchLandmark},
+    {kTouchLandmark, kLandmarkTouched, kSayNext, kSelectScrew, kGuide},
 
     {kGuide, kBreachPending, kSayAccept, kTakeBreach, kGuide},
 
-    {kPlaced, kBreachPending, kSayAccept, kTakeBreach, kPlaced},
-    {kPlaced, kWireBeyondLimit, kSayAccept, kKeepWire, kPlaced},
-    {kPlaced, kWireBeyondLimit, kSayNext, kExplainWire, kPlaced},
+    {kMeasureWire, kBreachPending, kSayAccept, kTakeBreach, kMeasureWire},
+    {kMeasureWire, kWireBeyondLimit, kSayAccept, kKeepWire, kMeasureWire},
+    {kMeasureWire, kWireBeyondLimit, kSayNext, kExplainWire, kMeasureWire},
 });
 
 /// The answer that differs where rods alone are bent.
@@ -335,16 +335,16 @@ inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kVerify, kSayDelete, kRefuse, kVerify},
     {kVerify, kPoseStale, kIgnore, kVerify},
     {kVerify, kTrackingRegained, kIgnore, kVerify},
-    {kAccepted, kSayNext, kSelectScrew, kGuide},
-    {kAccepted, kLandmarkMoved, kRefuse, kAccepted},
-    {kAccepted, kPress, kIgnore, kAccepted},
-    {kAccepted, kRelease, kIgnore, kAccepted},
-    {kAccepted, kClick, kIgnore, kAccepted},
-    {kAccepted, kDoubleClick, kRefuse, kAccepted},
-    {kAccepted, kHold, kIgnore, kAccepted},
-    {kAccepted, kSayDelete, kRefuse, kAccepted},
-    {kAccepted, kPoseStale, kIgnore, kAccepted},
-    {kAccepted, kTrackingRegained, kIgnore, kAccepted},
+    {kTouchLandmark, kSayNext, kSelectScrew, kGuide},
+    {kTouchLandmark, kLandmarkMoved, kRefuse, kTouchLandmark},
+    {kTouchLandmark, kPress, kIgnore, kTouchLandmark},
+    {kTouchLandmark, kRelease, kIgnore, kTouchLandmark},
+    {kTouchLandmark, kClick, kIgnore, kTouchLandmark},
+    {kTouchLandmark, kDoubleClick, kRefuse, kTouchLandmark},
+    {kTouchLandmark, kHold, kIgnore, kTouchLandmark},
+    {kTouchLandmark, kSayDelete, kRefuse, kTouchLandmark},
+    {kTouchLandmark, kPoseStale, kIgnore, kTouchLandmark},
+    {kTouchLandmark, kTrackingRegained, kIgnore, kTouchLandmark},
     {kGuide, kSayNext, kFinishScrew, kGuide},
     {kGuide, kBoneUnchecked, kRefuse, kGuide},
     {kGuide, kAnotherScrew, kSelectScrew, kGuide},
@@ -355,14 +355,14 @@ inline constexpr auto kRulesByEye = std::to_array<Rule>({
 
 /// If the landmark is not touched again, the next screw follows at once.
 inline constexpr auto kRulesTouchedOnce = std::to_array<Rule>({
-    {kPlaced, kAnotherScrew, kSelectScrew, kGuide},
-    {kPlaced, kScrewRedone, kSelectScrew, kGuide},
+    {kMeasureWire, kAnotherScrew, kSelectScrew, kGuide},
+    {kMeasureWire, kScrewRedone, kSelectScrew, kGuide},
 });
 
 /// If the landmark is touched again but no wire is measured.
 inline constexpr auto kRulesWireUnmeasured = std::to_array<Rule>({
-    {kGuide, kAnotherScrew, kExpectLandmark, kAccepted},
-    {kGuide, kBoneUnchecked, kExpectLandmark, kAccepted},
+    {kGuide, kAnotherScrew, kExpectLandmark, kTouchLandmark},
+    {kGuide, kBoneUnchecked, kExpectLandmark, kTouchLandmark},
 });
 // clang-format on
 }  // namespace workflow_detail
@@ -384,7 +384,7 @@ using Table = std::array<std::array<Cell, kEventCount>, kStepCount>;
 /// Whether this step is done by eye alone, without touching.
 constexpr bool is_by_eye(Step step, const MethodSteps& steps) {
   return (step == kDigitize && !steps.landmark) || (step == kVerify && !steps.check_points) ||
-         (step == kAccepted && !steps.dimple()) || (step == kGuide && !steps.wire);
+         (step == kTouchLandmark && !steps.touches_landmark()) || (step == kGuide && !steps.wire);
 }
 
 /// Every cell starts as a refusal that stays in its step; the usual answers and then the rules

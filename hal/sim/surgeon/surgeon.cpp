@@ -101,7 +101,7 @@ Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const 
       lightness_(lightness_of(error_model, random.fork("lightness"))),
       regions_(layout.levels()),
       failures_(layout.levels()),
-      dimples_(layout.levels()),
+      landmarks_(layout.levels()),
       moved_(layout.levels()),
       life_(operate()) {
   if (!layout.operated().empty()) {
@@ -158,7 +158,7 @@ Script Surgeon::perform(StepOnDisplay step) {
     co_await await_verdict(*level, step);
   } else if (step.step == Step::kVerify && level) {
     co_await verify(*level);
-  } else if (step.step == Step::kAccepted && level) {
+  } else if (step.step == Step::kTouchLandmark && level) {
     co_await body_.rest(1.0);
     if (asked(ChecksAsked::kTouchMore)) {
       co_await touch_landmark(*level);
@@ -178,7 +178,7 @@ Script Surgeon::perform(StepOnDisplay step) {
     if (driven_.contains(step)) {
       co_await await_change(step, words().next);
     }
-  } else if (step.step == Step::kPlaced && level && step.side) {
+  } else if (step.step == Step::kMeasureWire && level && step.side) {
     co_await look_at_wire(*level, *step.side);
   } else if (step.step == Step::kRod && step.side) {
     co_await touch_heads(*step.side);

@@ -102,15 +102,15 @@ class Surgeon {
   }
 
   // surgeon_landmark.cpp
-  /// Makes a dimple in the bone, or finds it again, and touches it.
+  /// Makes a landmark in the bone, or finds it again, and touches it.
   Script touch_landmark(std::size_t level);
-  /// Puts the guide into the same dimple.
-  /// Where a tip comes to lie in the level's dimple, and the bone's normal there.
+  /// Puts the guide into the same landmark.
+  /// Where a tip comes to lie in the level's landmark, and the bone's normal there.
   struct Seat {
     Point<Room> tip;
     Vec3 normal;
   };
-  [[nodiscard]] Seat seat_in_dimple(std::size_t level);
+  [[nodiscard]] Seat seat_in_landmark(std::size_t level);
   Script compare_tips(std::size_t level);
   /// With the guide held, and looked at, about as for the next screw.
   Script compare_tips_as_for_screw(std::size_t level);
@@ -215,13 +215,13 @@ class Surgeon {
   Vec3 misread_rad_{};  ///< of the angle; drawn before the wire goes in, constant while it does
   Bearings bearings_;
   Random checking_;  ///< a separate stream: without touches, the others stay the same
-  Random seating_;   ///< of the tip in a dimple; a separate stream too
+  Random seating_;   ///< of the tip in a landmark; a separate stream too
   Random sleeving_;  ///< of the sleeve over a wire; a separate stream too
   double lightness_ = 1.0;
   std::vector<std::vector<StrokeRegion>> regions_;  ///< for each level; empty where not operated
   bool refused_ = false;                            ///< the registration of what was stroked
   std::vector<int> failures_;                       ///< refusals and rejections, for each level
-  std::vector<std::optional<BoneSpot>> dimples_;    ///< in Vertebra, for each level
+  std::vector<std::optional<BoneSpot>> landmarks_;  ///< in Vertebra, for each level
   std::vector<int> moved_;  ///< how often its landmark had moved since a level was registered
   std::set<StepOnDisplay> redone_;  ///< guide steps whose wire was taken out once
   std::set<StepOnDisplay> driven_;  ///< guide steps whose wire is in

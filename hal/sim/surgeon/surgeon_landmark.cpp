@@ -17,13 +17,13 @@ constexpr Vec3 kRightScrew{-0.342, 0.940, 0.0};
 Script Surgeon::touch_landmark(std::size_t level) {
   const StepOnDisplay step = step_now();
   co_await body_.take(ToolKind::kPointer, layout_->site(level));
-  const bool made = dimples_[level].has_value();
+  const bool made = landmarks_[level].has_value();
   const std::vector<BoneSpot> places =
-      made ? std::vector<BoneSpot>{*dimples_[level]} : places_to_check(level);
+      made ? std::vector<BoneSpot>{*landmarks_[level]} : places_to_check(level);
   std::size_t place = 0;
   for (int touch = 0; touch < kMaxTouches && in_step(step) && !finished_; ++touch) {
-    dimples_[level] = places[place];
-    const Seat seat = seat_in_dimple(level);
+    landmarks_[level] = places[place];
+    const Seat seat = seat_in_landmark(level);
     co_await touch_at(step, seat.tip, seat.normal);
     // A refused place, for example too near to the reference, is replaced by another one.
     place = told(Notice::kTouchNotRecorded) ? (place + 1) % places.size() : place;
@@ -37,10 +37,10 @@ Script Surgeon::touch_landmark(std::size_t level) {
   }
 }
 
-Surgeon::Seat Surgeon::seat_in_dimple(std::size_t level) {
+Surgeon::Seat Surgeon::seat_in_landmark(std::size_t level) {
   const auto& room_from_vertebra = layout_->room_from_vertebra(level);
-  const BoneSpot& spot = *dimples_[level];
-  const Vec3 off = normal_vector(seating_, error_model_->dimple_seating_m);
+  const BoneSpot& spot = *landmarks_[level];
+  const Vec3 off = normal_vector(seating_, error_model_->landmark_seating_m);
   return {room_from_vertebra * Point<Vertebra>{spot.point} + off,
           (room_from_vertebra * Direction<Vertebra>{spot.normal}).v};
 }
@@ -48,14 +48,14 @@ Surgeon::Seat Surgeon::seat_in_dimple(std::size_t level) {
 Script Surgeon::compare_tips(std::size_t level) {
   const StepOnDisplay step = step_now();
   co_await body_.take(ToolKind::kGuide, layout_->site(level));
-  const Seat seat = seat_in_dimple(level);
+  const Seat seat = seat_in_landmark(level);
   co_await touch_at(step, seat.tip, seat.normal);
 }
 
 Script Surgeon::compare_tips_as_for_screw(std::size_t level) {
   const StepOnDisplay step = step_now();
   co_await body_.take(ToolKind::kGuide, layout_->site(level));
-  const Seat seat = seat_in_dimple(level);
+  const Seat seat = seat_in_landmark(level);
   // The left screw comes first.
   const bool left = !driven_.contains({Step::kGuide, step.level, Side::kLeft});
   const Vec3 axis =

@@ -24,7 +24,7 @@ Script Surgeon::look_at_wire(std::size_t level, Side side) {
   const StepOnDisplay step = step_now();
   const StepOnDisplay guiding{Step::kGuide, step.level, step.side};
   const auto wire = metal_.wire(layout_->room().levels[level].label, side);
-  if (wire && asked(ChecksAsked::kMeasureWire)) {
+  if (wire && asked(ChecksAsked::kRecordWire)) {
     co_await set_sleeve_over(step, level, *wire);
   }
   const bool betters = error_model_->wire_bending_rad < kBendsAgain_rad;

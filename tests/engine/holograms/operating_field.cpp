@@ -161,7 +161,7 @@ OperatingField entry_points(int levels) {
       field.places.push_back({name, at, kRing_m, false});
     }
   }
-  add_status(field, "accepted L4 | touch the dimple");
+  add_status(field, "landmark L4 | touch it");
   return field;
 }
 

@@ -19,7 +19,7 @@ class PlacedWireShown : public ::testing::Test {
   PlacedWireShown() : s({"L4"}, test::three_places(), Verification::kByTouch, false, true) {
     s.registers_within(0.0003);
     s.accepts_first_by_touch();
-    s.touches_dimple();
+    s.touches_landmark();
     s.says("next");
     s.tracker().guide = guide_at(kLeftEntry, 0.0);
     s.pairs(3);

@@ -92,7 +92,7 @@ TEST_F(FrameAllocations, AreNoneWhileAWireIsShown) {
   ScriptedOperation wire({"L4"}, {}, Verification::kByTouch);
   wire.registers_within(0.0003);
   wire.accepts_first_by_touch();
-  wire.touches_dimple();
+  wire.touches_landmark();
   wire.says("next");
   wire.tracker().guide = guide_at(kLeftEntry, 0.1);
   wire.says("next");

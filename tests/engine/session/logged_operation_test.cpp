@@ -166,9 +166,9 @@ TEST(LoggedOperation, IsTheOperationAsTheSessionHasIt) {
     course.push_back(step.step);
   }
   using enum Step;
-  EXPECT_THAT(course,
-              ::testing::ElementsAre(kDigitize, kRegistering, kVerify, kAccepted, kGuide, kDigitize,
-                                     kRegistering, kVerify, kAccepted, kGuide, kRod));
+  EXPECT_THAT(course, ::testing::ElementsAre(kDigitize, kRegistering, kVerify, kTouchLandmark,
+                                             kGuide, kDigitize, kRegistering, kVerify,
+                                             kTouchLandmark, kGuide, kRod));
 }
 
 /// After each act: no later fact is needed to make up for an earlier one.
@@ -210,13 +210,13 @@ TEST(LoggedOperation, KnowsWhatWasAcceptedAfterTouching) {
 TEST(LoggedOperation, KnowsEveryTouchOfTheLandmarkAndWhatItTookBack) {
   Logged j({"L4"}, Verification::kByTouch);
   j.operation.accepts_first_by_touch();
-  j.operation.touches_dimple();
+  j.operation.touches_landmark();
   j.operation.says("next");
   j.operation.says("next");
   j.operation.says("next");
-  j.operation.touches_dimple(Vec3{0.0006, 0, 0});
+  j.operation.touches_landmark(Vec3{0.0006, 0, 0});
   j.operation.says("delete");
-  j.operation.touches_dimple(Vec3{0, 0, 0.0031});
+  j.operation.touches_landmark(Vec3{0, 0, 0.0031});
   ASSERT_EQ(j.operation.pair().step, Step::kVerify);
   const LoggedOperation told = j.so_far();
   expect_the_same(told, j.operation.session());
@@ -256,7 +256,7 @@ TEST(LoggedOperation, KnowsWhereTheToolWentAndWhatWasNotMeasured) {
   test::ScriptedOperation& s = j.operation;
   s.registers_within(0.0003);
   s.accepts_first_by_touch();
-  s.touches_dimple();
+  s.touches_landmark();
   s.says("next");
   for (const double depth_m : {0.0, 0.005, 0.010, 0.010, 0.010}) {
     s.tracker().guide = test::guide_at({0.0153, 0.020 - depth_m, 0.0}, 0.01);
@@ -265,7 +265,7 @@ TEST(LoggedOperation, KnowsWhereTheToolWentAndWhatWasNotMeasured) {
   s.says("next");
   s.says("next");
   s.tracker().guide.reset();
-  s.touches_dimple();
+  s.touches_landmark();
   s.says("next");
   s.says("next");
   s.says("next");
@@ -313,7 +313,7 @@ TEST(LoggedOperation, KnowsHowEveryWireWasMeasuredKeptOrRedone) {
   s.registers_within(0.0003);
   s.accepts_first_by_touch();
   const auto drill = [&s] {
-    s.touches_dimple();
+    s.touches_landmark();
     s.says("next");
     s.says("next");
   };
@@ -364,7 +364,7 @@ LoggedOperation resumed_log(Step killed_in, Step ends_in) {
 }
 
 TEST(LoggedOperation, HasALevelAsAcceptedThatWasAcceptedBeforeItWasResumed) {
-  for (const Step step : {Step::kAccepted, Step::kGuide, Step::kPlaced}) {
+  for (const Step step : {Step::kTouchLandmark, Step::kGuide, Step::kMeasureWire}) {
     const LoggedOperation told = resumed_log(step, Step::kGuide);
     EXPECT_TRUE(told.state.levels[0].accepted) << "and not taken back";
     EXPECT_EQ(told.resumed, 1);
@@ -373,7 +373,7 @@ TEST(LoggedOperation, HasALevelAsAcceptedThatWasAcceptedBeforeItWasResumed) {
 
 TEST(LoggedOperation, ThatWasResumedTellsOfEveryRegistrationOnce) {
   for (const Step step :
-       {Step::kVerify, Step::kAccepted, Step::kGuide, Step::kPlaced, Step::kRod}) {
+       {Step::kVerify, Step::kTouchLandmark, Step::kGuide, Step::kMeasureWire, Step::kRod}) {
     const LoggedOperation told = resumed_log(step, Step::kDone);
     EXPECT_EQ(told.registrations.size(), 2u);
     for (const LevelState& level : told.state.levels) {

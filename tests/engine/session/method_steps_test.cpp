@@ -38,7 +38,7 @@ class Accepted : public ScriptedOperation {
     }
   }
   const Guidance& drills() {
-    touches_dimple();
+    touches_landmark();
     says("next");
     tracker().guide = guide_at(kLeftEntry, 0.0);
     pairs(3);
@@ -54,23 +54,23 @@ class Accepted : public ScriptedOperation {
 
 TEST(MethodSteps, AllOfThemAreTakenUntilOneIsLeftOut) {
   Accepted s({});
-  EXPECT_EQ(step_of(s.pair()), "accepted L4");
-  EXPECT_EQ(step_of(s.drills()), "placed L4 left");
-  EXPECT_EQ(step_of(s.says("next")), "accepted L4");
-  EXPECT_EQ(s.says("next").step, Step::kAccepted) << "the landmark first";
+  EXPECT_EQ(step_of(s.pair()), "landmark L4");
+  EXPECT_EQ(step_of(s.drills()), "measure L4 left");
+  EXPECT_EQ(step_of(s.says("next")), "landmark L4");
+  EXPECT_EQ(s.says("next").step, Step::kTouchLandmark) << "the landmark first";
 }
 
 TEST(MethodSteps, WithoutCheckPointsALookIsEnough) {
   Accepted s(without(&MethodSteps::check_points));
-  EXPECT_EQ(step_of(s.pair()), "accepted L4");
-  EXPECT_EQ(s.says("next").step, Step::kAccepted) << "the landmark is still asked for";
-  EXPECT_EQ(step_of(s.drills()), "placed L4 left");
+  EXPECT_EQ(step_of(s.pair()), "landmark L4");
+  EXPECT_EQ(s.says("next").step, Step::kTouchLandmark) << "the landmark is still asked for";
+  EXPECT_EQ(step_of(s.drills()), "measure L4 left");
 }
 
 TEST(MethodSteps, WithoutTheLandmarkTheNextScrewComesAtOnce) {
   Accepted s(without(&MethodSteps::landmark));
-  EXPECT_EQ(s.says("next").step, Step::kAccepted) << "once, for the tips";
-  EXPECT_EQ(step_of(s.drills()), "placed L4 left");
+  EXPECT_EQ(s.says("next").step, Step::kTouchLandmark) << "once, for the tips";
+  EXPECT_EQ(step_of(s.drills()), "measure L4 left");
   EXPECT_EQ(step_of(s.says("next")), "guide L4 right");
 }
 
@@ -90,10 +90,10 @@ TEST(MethodSteps, WithoutLandmarkAndTipsNothingIsTouchedBeforeTheScrew) {
 
 TEST(MethodSteps, WithoutTheWireTheLandmarkFollowsTheScrew) {
   Accepted s(without(&MethodSteps::wire));
-  EXPECT_EQ(step_of(s.drills()), "accepted L4");
+  EXPECT_EQ(step_of(s.drills()), "landmark L4");
   EXPECT_FALSE(s.session().levels()[0].screws[0].wire.asked);
-  EXPECT_EQ(s.says("next").step, Step::kAccepted);
-  s.touches_dimple();
+  EXPECT_EQ(s.says("next").step, Step::kTouchLandmark);
+  s.touches_landmark();
   EXPECT_EQ(step_of(s.says("next")), "guide L4 right");
 }
 
@@ -102,13 +102,13 @@ TEST(MethodSteps, WithoutRedoAWireIsOnlyKept) {
   s.drills();
   s.measures(0.0025);
   const Guidance& g = s.says("delete");
-  EXPECT_EQ(step_of(g), "placed L4 left");
+  EXPECT_EQ(step_of(g), "measure L4 left");
   EXPECT_NE(said<NoOtherEntry>(g), nullptr);
   EXPECT_EQ(checks_asked(s.pairs(120).status), ChecksAsked::kKeepWire);
   Accepted twin({});
   twin.drills();
   twin.measures(0.0025);
-  EXPECT_EQ(step_of(twin.says("delete")), "accepted L4") << "the twin";
+  EXPECT_EQ(step_of(twin.says("delete")), "landmark L4") << "the twin";
 }
 
 TEST(MethodSteps, WithoutTheTipsNobodyAsksForThem) {
@@ -116,7 +116,7 @@ TEST(MethodSteps, WithoutTheTipsNobodyAsksForThem) {
     SessionOptions options;
     options.steps.tips = tips;
     Accepted s(options);
-    s.touches_dimple();
+    s.touches_landmark();
     EXPECT_EQ(checks_asked(s.pair().status) == ChecksAsked::kGuideTip, tips);
   }
 }

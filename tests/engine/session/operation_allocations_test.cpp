@@ -24,7 +24,7 @@ using enum ClickerAction;
 constexpr Duration kStays = std::chrono::milliseconds(300);
 /// As many pairs take longer than that, at 30 pairs a second.
 constexpr int kWhile = 12;
-constexpr Vec3 kDimple = ScriptedOperation::kDimple;
+constexpr Vec3 kLandmark = ScriptedOperation::kLandmark;
 
 using Actions = std::bitset<kActionCount>;
 
@@ -39,7 +39,7 @@ Actions that_may_allocate() {
   Actions actions;
   for (const Action action : {kStartSampling, kRegister, kShowRegistration, kRecordCheck,
                               kDropCheck, kAccept, kClearLevel, kExpectLandmark, kReplan,
-                              kExpectWire, kMeasureWire, kJudgeRedo, kRecordHead, kForgetMap}) {
+                              kExpectWire, kRecordWire, kJudgeRedo, kRecordHead, kForgetMap}) {
     actions.set(index_of(action));
   }
   return actions;
@@ -186,16 +186,16 @@ void verifies(CountedOperation& o) {
   o.does({kRelease});
   o.touches({0.000, 0.020, 0.012});
   o.loses(o.s.tracker().pointer);
-  EXPECT_EQ(o.says("accept").step, Step::kAccepted);
+  EXPECT_EQ(o.says("accept").step, Step::kTouchLandmark);
 }
 
 /// From `accepted` to the measured wire of the screw with that entry, tilted by that angle.
 void drives(CountedOperation& o, Vec3 entry, double angle_rad) {
   o.says("next");
-  o.touches(kDimple);
-  o.touches(kDimple);
+  o.touches(kLandmark);
+  o.touches(kLandmark);
   o.s.tracker().pointer.reset();
-  o.s.tracker().guide = guide_at(kDimple, 0.0);
+  o.s.tracker().guide = guide_at(kLandmark, 0.0);
   o.clicks();
   EXPECT_EQ(o.says("next").step, Step::kGuide);
   o.s.tracker().guide = guide_at(entry, angle_rad);
@@ -205,7 +205,7 @@ void drives(CountedOperation& o, Vec3 entry, double angle_rad) {
   o.s.tracker().guide = guide_at(entry - Vec3{0, 0.010, 0}, angle_rad);
   EXPECT_EQ(o.pairs(kWhile).drill.phase, nav::DrillPhase::kDrilling);
   o.loses(o.s.tracker().guide);
-  EXPECT_EQ(o.says("next").step, Step::kPlaced);
+  EXPECT_EQ(o.says("next").step, Step::kMeasureWire);
   o.s.tracker().guide = guide_at(entry + Vec3{0, 0.004, 0}, angle_rad);
   o.pairs(kWhile);
   EXPECT_NE(o.clicks().wire, nullptr);
@@ -221,10 +221,10 @@ void operates(CountedOperation& o) {
   o.says("undo");
   drives(o, {0.015, 0.020, 0.0}, kTooFar_rad);
   o.says("next");
-  EXPECT_EQ(o.says("delete").step, Step::kAccepted) << "the screw is redone";
+  EXPECT_EQ(o.says("delete").step, Step::kTouchLandmark) << "the screw is redone";
   drives(o, {0.015, 0.020, 0.0}, kTooFar_rad);
   o.says("accept");
-  EXPECT_EQ(o.says("next").step, Step::kAccepted);
+  EXPECT_EQ(o.says("next").step, Step::kTouchLandmark);
   drives(o, {-0.015, 0.020, 0.0}, 0.0);
   o.s.tracker().guide.reset();
   o.says("next");

@@ -331,7 +331,7 @@ TEST(OperationLog, HoldsAnOverrideWithItsReason) {
   s.registers_within(0.0003);
   auto log = log_of(s, env);
   s.accepts_first_by_touch();
-  s.touches_dimple();
+  s.touches_landmark();
   s.says("next");
   s.says("next");
   s.tracker().guide = test::guide_at({0.015 + 0.004, 0.024, 0.0}, 0.0);

@@ -26,7 +26,7 @@ class PlacedSession : public ::testing::Test {
     drill();
   }
   void drill() {
-    s.touches_dimple();
+    s.touches_landmark();
     s.says("next");
     s.tracker().guide = test::guide_at(kLeftEntry, 0.0);
     s.pairs(3);

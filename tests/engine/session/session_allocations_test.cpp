@@ -126,13 +126,13 @@ TEST(SessionAllocations, AreNoneWhileTheLandmarkIsTouchedAndAfterItMoved) {
   ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
   s.accepts_first_by_touch();
   EXPECT_EQ(allocations_once_warm(s), 0u) << "with nothing touched";
-  s.touches_dimple();
+  s.touches_landmark();
   EXPECT_EQ(allocations_once_warm(s), 0u);
   s.says("next");
   s.says("next");
-  EXPECT_EQ(s.says("next").step, Step::kAccepted);
+  EXPECT_EQ(s.says("next").step, Step::kTouchLandmark);
   EXPECT_EQ(allocations_while_a_tool_comes_and_goes(s, s.tracker().pointer), 0u);
-  EXPECT_EQ(s.touches_dimple(Vec3{0, 0, 0.003}).step, Step::kVerify);
+  EXPECT_EQ(s.touches_landmark(Vec3{0, 0, 0.003}).step, Step::kVerify);
   EXPECT_EQ(allocations_once_warm(s), 0u);
 }
 
@@ -140,10 +140,10 @@ TEST(SessionAllocations, AreNoneWhileAWireIsMeasuredAndWaitsForAWord) {
   ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
   s.registers_within(0.0003);
   s.accepts_first_by_touch();
-  s.touches_dimple();
+  s.touches_landmark();
   s.says("next");
   s.tracker().guide = guide_at(kLeftEntry, 0.1);
-  EXPECT_EQ(s.says("next").step, Step::kPlaced);
+  EXPECT_EQ(s.says("next").step, Step::kMeasureWire);
   EXPECT_EQ(allocations_once_warm(s), 0u) << "with nothing measured";
   s.does({kPress});
   EXPECT_EQ(allocations_of(s, 15), 0u) << "while the sleeve is pressed";
@@ -158,7 +158,7 @@ TEST(SessionAllocations, AreNoneWhileVerifyingByEyeAndOnceAccepted) {
   s.registers_first_level();
   EXPECT_EQ(s.pair().step, Step::kVerify);
   EXPECT_EQ(allocations_once_warm(s), 0u);
-  EXPECT_EQ(s.accepts().step, Step::kAccepted);
+  EXPECT_EQ(s.accepts().step, Step::kTouchLandmark);
   EXPECT_EQ(allocations_once_warm(s), 0u);
 }
 

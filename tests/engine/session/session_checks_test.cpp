@@ -50,7 +50,7 @@ TEST_F(CheckedSession, AcceptsOnceThreeSpreadPlacesLieOnTheSurface) {
   EXPECT_EQ(s.says("accept").step, Step::kVerify);
   EXPECT_EQ(checks_asked(s.touches(kThird).status), ChecksAsked::kPassed);
   EXPECT_FALSE(s.pair().levels[0].accepted) << "the word is still theirs";
-  EXPECT_EQ(step_of(s.says("accept")), "accepted L4");
+  EXPECT_EQ(step_of(s.says("accept")), "landmark L4");
   EXPECT_TRUE(s.pair().levels[0].accepted);
 }
 
@@ -83,7 +83,7 @@ TEST_F(CheckedSession, AcceptsNothingWithAPlaceTooFarOff) {
   near.touches(kFirst);
   near.touches(kSecond + Vec3{0, 0.0019, 0});
   near.touches(kThird);
-  EXPECT_EQ(near.says("accept").step, Step::kAccepted);
+  EXPECT_EQ(near.says("accept").step, Step::kTouchLandmark);
 }
 
 TEST_F(CheckedSession, TheSamePlaceThreeTimesIsOnePlace) {
@@ -191,7 +191,7 @@ TEST(ProvisionalRegistration, CountsOnceTheBoneWasTouched) {
   EXPECT_EQ(s.says("accept").step, Step::kVerify);
   s.touches(kSecond + deeper);
   EXPECT_EQ(checks_asked(s.touches(kThird + deeper).status), ChecksAsked::kPassed);
-  EXPECT_EQ(step_of(s.says("accept")), "accepted L4");
+  EXPECT_EQ(step_of(s.says("accept")), "landmark L4");
   const nav::Registration& r = *s.session().levels()[0].registration;
   EXPECT_TRUE(r.accepted);
   EXPECT_NEAR(r.world_from_vertebra.translation().y, -0.0013, 0.0001)
@@ -240,7 +240,7 @@ TEST(ManyTouches, AreAskedForAsLongAsTheyTell) {
     s.touches(kFirst + Vec3{0.006 * (k % 3 + 1), 0.0, 0.006 * (k / 3)});
   }
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kPassed);
-  EXPECT_EQ(step_of(s.says("accept")), "accepted L4");
+  EXPECT_EQ(step_of(s.says("accept")), "landmark L4");
 }
 
 TEST(ManyTouches, AreNotAskedForOnTheMap) {
@@ -268,7 +268,7 @@ TEST(VerifiedByEye, ClicksSayNothingAndTheWordAccepts) {
   EXPECT_EQ(notice_of(s.says("delete")), Notice::kNotPossibleNow);
   s.tracker().pointer.reset();
   EXPECT_FALSE(s.pairs(100).status.tool_lost) << "no tool is in use";
-  EXPECT_EQ(s.says("accept").step, Step::kAccepted);
+  EXPECT_EQ(s.says("accept").step, Step::kTouchLandmark);
 }
 
 TEST(SessionOptions, NamesLimitsOfCheckPointsThatMakeNoSense) {

@@ -39,7 +39,7 @@ class DriftingMap : public ::testing::Test {
     s.registers_within(0.0003);
     s.accepts_first_by_touch();
     s.tracker().guide = guide_at(kAway, 0.0);
-    s.touches_dimple();
+    s.touches_landmark();
     s.says("next");
   }
   /// Runs pairs until the bone was last found this long ago, or guidance ends.
@@ -57,15 +57,15 @@ TEST_F(DriftingMap, BeforeADrillIsSetAsksForTheLandmarkAgain) {
   waits_s(kLongest_s - kPairs_s);
   ASSERT_EQ(s.session().current_step(), Step::kGuide);
   waits_s(kLongest_s + kPairs_s);
-  ASSERT_EQ(s.session().current_step(), Step::kAccepted);
+  ASSERT_EQ(s.session().current_step(), Step::kTouchLandmark);
   const Guidance& g = s.pair();
   EXPECT_FALSE(g.tool) << "nothing is guided";
   ASSERT_NE(said<BoneUnchecked>(g), nullptr);
   EXPECT_NEAR(said<BoneUnchecked>(g)->for_s, kLongest_s, kPairs_s);
   EXPECT_NEAR(said<BoneUnchecked>(g)->drift_m, 2.0 * kMaxWalked_m, 5e-5);
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kTouchMore);
-  EXPECT_EQ(s.says("next").step, Step::kAccepted) << "not without it";
-  s.touches_dimple();
+  EXPECT_EQ(s.says("next").step, Step::kTouchLandmark) << "not without it";
+  s.touches_landmark();
   EXPECT_EQ(s.says("next").step, Step::kGuide);
   EXPECT_LT(seconds(s.now() - found().time), 1.0) << "it counts anew";
 }

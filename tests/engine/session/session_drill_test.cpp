@@ -54,7 +54,7 @@ TEST(SessionDrill, BeginsByCommandInGuideAlone) {
   ScriptedOperation early;
   early.accepts_first_level();
   const Guidance& refused = early.says("drill");
-  EXPECT_EQ(refused.step, Step::kAccepted);
+  EXPECT_EQ(refused.step, Step::kTouchLandmark);
   EXPECT_EQ(refused.drill, nav::DrillView{});
   ASSERT_NE(refused.status.message, nullptr);
   EXPECT_TRUE(std::holds_alternative<NotPossibleNow>(*refused.status.message));
@@ -99,7 +99,7 @@ TEST(SessionDrill, EndsWithWithdrawalAndWithTheScrew) {
 
 TEST(SessionDrill, ForgetsWhatLayDeeperBesideTheScrewBeforeTheTipWasSet) {
   Drilling s;
-  s.at(0.012, 0.009, 5);  // in the dimple, or past the facet
+  s.at(0.012, 0.009, 5);  // at the landmark, or past the facet
   s.at(0.0, 0.0005, 30);  // a sleeve is set, and stays there while the drill goes in
   s.says("next");
   const auto& executed = s.session().levels()[0].screws[0].executed;

@@ -37,8 +37,8 @@ struct WithTap : ScriptedOperation {
 TEST(ToolSteps, EveryStepOfWorkHasItsToolAndTheGuideAloneIsGuided) {
   for (const auto& [role, step] : {std::pair{ToolRole::kPointer, Step::kDigitize},
                                    {ToolRole::kPointer, Step::kVerify},
-                                   {ToolRole::kPointer, Step::kAccepted},
-                                   {ToolRole::kGuide, Step::kAccepted},
+                                   {ToolRole::kPointer, Step::kTouchLandmark},
+                                   {ToolRole::kGuide, Step::kTouchLandmark},
                                    {ToolRole::kGuide, Step::kGuide},
                                    {ToolRole::kPointer, Step::kRod}}) {
     EXPECT_TRUE(used_in(role, step)) << nav::name_of(role) << " " << name_of(step);

@@ -21,7 +21,7 @@ using enum ClickerAction;
 
 // Arithmetic on values of the order of 1: far below what any device resolves.
 constexpr double kExact = 1e-9;
-constexpr Vec3 kDimple = ScriptedOperation::kDimple;
+constexpr Vec3 kLandmark = ScriptedOperation::kLandmark;
 /// Two touches of a few pairs each are so imprecise that the limit is at its maximum.
 constexpr double kLimit_m = kMaxLandmarkOff_m;
 constexpr double kJust_m = 1e-5;
@@ -32,7 +32,7 @@ class LandmarkSession : public ::testing::Test {
   LandmarkSession() : s({"L4", "L5"}, {}, Verification::kByTouch) { s.accepts_first_by_touch(); }
   const LevelState& level() { return s.session().levels()[0]; }
   void finish_first_screw() {
-    s.touches_dimple();
+    s.touches_landmark();
     s.says("next");
     s.says("next");
     s.says("next");
@@ -41,52 +41,52 @@ class LandmarkSession : public ::testing::Test {
 };
 
 TEST_F(LandmarkSession, NothingIsGuidedBeforeTheLandmarkIsRecorded) {
-  EXPECT_EQ(step_of(s.pair()), "accepted L4");
+  EXPECT_EQ(step_of(s.pair()), "landmark L4");
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kTouchMore);
-  EXPECT_EQ(s.says("next").step, Step::kAccepted);
+  EXPECT_EQ(s.says("next").step, Step::kTouchLandmark);
   ASSERT_NE(said<LandmarkMissing>(s.pair()), nullptr);
   EXPECT_FALSE(said<LandmarkMissing>(s.pair())->recorded);
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kTouchMore) << "in a message as well";
-  const Guidance& g = s.touches_dimple();
+  const Guidance& g = s.touches_landmark();
   ASSERT_NE(state<LandmarkSoFar>(g), nullptr);
   EXPECT_TRUE(state<LandmarkSoFar>(g)->last->first);
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kGuideTip);
   ASSERT_TRUE(level().landmark);
-  EXPECT_NEAR((level().landmark->in_vertebra.v - kDimple).norm(), 0.0, kExact);
+  EXPECT_NEAR((level().landmark->in_vertebra.v - kLandmark).norm(), 0.0, kExact);
   EXPECT_EQ(step_of(s.says("next")), "guide L4 left");
 }
 
 TEST_F(LandmarkSession, OnTheMapOneTouchAloneSaysNothing) {
-  s.touches(kDimple);
+  s.touches(kLandmark);
   EXPECT_EQ(state<LandmarkSoFar>(s.pair())->last->missing, 1);
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kTouchMore);
   EXPECT_FALSE(level().landmark);
-  EXPECT_EQ(s.says("next").step, Step::kAccepted);
-  s.touches(kDimple + Vec3{0.001, 0, 0});
+  EXPECT_EQ(s.says("next").step, Step::kTouchLandmark);
+  s.touches(kLandmark + Vec3{0.001, 0, 0});
   ASSERT_TRUE(level().landmark);
-  EXPECT_NEAR((level().landmark->in_vertebra.v - kDimple).norm(), 0.0005, kExact) << "the mean";
+  EXPECT_NEAR((level().landmark->in_vertebra.v - kLandmark).norm(), 0.0005, kExact) << "the mean";
   EXPECT_EQ(s.says("next").step, Step::kGuide);
 }
 
-TEST_F(LandmarkSession, TouchesThatLieApartAreNotOfOneDimple) {
-  s.touches(kDimple);
-  const TouchRefusal why = touch_refusal(s.touches(kDimple + Vec3{0.006, 0, 0}));
+TEST_F(LandmarkSession, TouchesThatLieApartAreNotOfOneLandmark) {
+  s.touches(kLandmark);
+  const TouchRefusal why = touch_refusal(s.touches(kLandmark + Vec3{0.006, 0, 0}));
   EXPECT_EQ(why.kind, TouchRefusal::Kind::kTouchesApart);
   EXPECT_NEAR(why.value_m, 0.006, kExact);
   EXPECT_LT(why.limit_m, 0.003);
-  s.touches(kDimple);
+  s.touches(kLandmark);
   EXPECT_FALSE(level().landmark) << "it begins anew";
-  s.touches(kDimple + Vec3{0.002, 0, 0});
+  s.touches(kLandmark + Vec3{0.002, 0, 0});
   EXPECT_TRUE(level().landmark) << "the twin";
 }
 
 TEST_F(LandmarkSession, IsTouchedAgainAfterEveryScrew) {
   finish_first_screw();
-  EXPECT_EQ(step_of(s.pair()), "accepted L4");
-  EXPECT_EQ(s.says("next").step, Step::kAccepted) << "the touch before the last screw is past";
+  EXPECT_EQ(step_of(s.pair()), "landmark L4");
+  EXPECT_EQ(s.says("next").step, Step::kTouchLandmark) << "the touch before the last screw is past";
   ASSERT_NE(said<LandmarkMissing>(s.pair()), nullptr);
   EXPECT_TRUE(said<LandmarkMissing>(s.pair())->recorded);
-  s.touches_dimple(Vec3{0.0009, 0, 0});
+  s.touches_landmark(Vec3{0.0009, 0, 0});
   EXPECT_NEAR(state<LandmarkSoFar>(s.pair())->last->off_m, 0.0009, kExact);
   EXPECT_EQ(step_of(s.says("next")), "guide L4 right");
   s.says("next");
@@ -95,7 +95,7 @@ TEST_F(LandmarkSession, IsTouchedAgainAfterEveryScrew) {
 
 TEST_F(LandmarkSession, OneThatMovedTakesTheAcceptanceBack) {
   finish_first_screw();
-  const Guidance& g = s.touches_dimple(Vec3{0, 0, kLimit_m + kJust_m});
+  const Guidance& g = s.touches_landmark(Vec3{0, 0, kLimit_m + kJust_m});
   EXPECT_EQ(step_of(g), "verify L4");
   EXPECT_FALSE(level().accepted);
   EXPECT_TRUE(level().check_points.empty());
@@ -111,47 +111,47 @@ TEST_F(LandmarkSession, OneThatMovedTakesTheAcceptanceBack) {
 
 TEST_F(LandmarkSession, TheTwinJustWithinTheLimitIsGuided) {
   finish_first_screw();
-  s.touches_dimple(Vec3{0, 0, kLimit_m - kJust_m});
+  s.touches_landmark(Vec3{0, 0, kLimit_m - kJust_m});
   EXPECT_EQ(step_of(s.says("next")), "guide L4 right");
 }
 
 TEST_F(LandmarkSession, StaysOverAnotherAcceptanceAndMustBeFoundThen) {
   finish_first_screw();
   const Vec3 away{0, 0, 0.0025};
-  s.touches_dimple(away);
+  s.touches_landmark(away);
   s.checks_by_touch();
   s.says("accept");
-  ASSERT_EQ(step_of(s.pair()), "accepted L4");
-  EXPECT_EQ(s.says("next").step, Step::kAccepted);
-  EXPECT_EQ(s.touches_dimple(away).step, Step::kVerify) << "the bone is where it was touched";
+  ASSERT_EQ(step_of(s.pair()), "landmark L4");
+  EXPECT_EQ(s.says("next").step, Step::kTouchLandmark);
+  EXPECT_EQ(s.touches_landmark(away).step, Step::kVerify) << "the bone is where it was touched";
   s.checks_by_touch();
   s.says("accept");
-  s.touches_dimple();
+  s.touches_landmark();
   EXPECT_EQ(step_of(s.says("next")), "guide L4 right") << "a slip of the tip costs three touches";
 }
 
 TEST_F(LandmarkSession, WhatIsShownAgainIsNotAcceptedByAnEarlierWord) {
   finish_first_screw();
   const Timestamp before = s.now();
-  s.touches_dimple(Vec3{0, 0, 0.003});
+  s.touches_landmark(Vec3{0, 0, 0.003});
   s.checks_by_touch();
   ASSERT_EQ(step_of(s.pair()), "verify L4");
   s.hears_at(before, "accept");
   EXPECT_EQ(notice_of(s.pair()), Notice::kSaidTooEarly);
-  EXPECT_EQ(s.says("accept").step, Step::kAccepted) << "the twin, said now";
+  EXPECT_EQ(s.says("accept").step, Step::kTouchLandmark) << "the twin, said now";
 }
 
 TEST_F(LandmarkSession, DeleteTakesTheLastTouchBack) {
   EXPECT_EQ(notice_of(s.says("delete")), Notice::kNothingToDelete);
-  s.touches_dimple();
+  s.touches_landmark();
   s.says("delete");
   EXPECT_FALSE(level().landmark) << "the first touch was the landmark";
   finish_first_screw();
-  s.touches_dimple(Vec3{0.001, 0, 0});
+  s.touches_landmark(Vec3{0.001, 0, 0});
   s.says("delete");
   ASSERT_TRUE(level().landmark);
-  EXPECT_NEAR((level().landmark->in_vertebra.v - kDimple).norm(), 0.0, kExact);
-  EXPECT_EQ(s.says("next").step, Step::kAccepted);
+  EXPECT_NEAR((level().landmark->in_vertebra.v - kLandmark).norm(), 0.0, kExact);
+  EXPECT_EQ(s.says("next").step, Step::kTouchLandmark);
 }
 
 TEST_F(LandmarkSession, IsForgottenWithItsRegistration) {
@@ -161,25 +161,25 @@ TEST_F(LandmarkSession, IsForgottenWithItsRegistration) {
 }
 
 TEST_F(LandmarkSession, IsForgottenWithTheMap) {
-  s.touches_dimple();
+  s.touches_landmark();
   ++s.map_epoch;
   s.pair();
   EXPECT_FALSE(level().landmark);
 }
 
 TEST_F(LandmarkSession, ATouchThatDoesNotCountRecordsNothing) {
-  s.tracker().pointer = pointer_at(kDimple);
+  s.tracker().pointer = pointer_at(kLandmark);
   s.does({kPress});
   EXPECT_EQ(touch_refusal(s.does({kHold})).kind, TouchRefusal::Kind::kHeldTooLong);
   EXPECT_EQ(said<TouchNotRecorded>(s.pair())->what, TouchNotRecorded::What::kLandmark);
   s.does({kRelease});
   s.does({kPress});
-  s.tracker().pointer = pointer_at(kDimple + Vec3{0.0064, 0, 0});
+  s.tracker().pointer = pointer_at(kLandmark + Vec3{0.0064, 0, 0});
   s.pair();
   EXPECT_EQ(touch_refusal(s.does({kRelease, kClick})).kind, TouchRefusal::Kind::kTipMoved);
   EXPECT_EQ(touch_refusal(s.does({kClick})).kind, TouchRefusal::Kind::kPressAgain);
   EXPECT_FALSE(level().landmark);
-  EXPECT_EQ(s.says("next").step, Step::kAccepted);
+  EXPECT_EQ(s.says("next").step, Step::kTouchLandmark);
 }
 
 TEST_F(LandmarkSession, AskForThePointerWhileItIsNotSeen) {
@@ -188,7 +188,7 @@ TEST_F(LandmarkSession, AskForThePointerWhileItIsNotSeen) {
 }
 
 TEST_F(LandmarkSession, APressWhileAWireWasLookedAtIsNoTouch) {
-  s.touches_dimple();
+  s.touches_landmark();
   s.says("next");
   s.says("next");
   s.does({kPress});
@@ -196,7 +196,7 @@ TEST_F(LandmarkSession, APressWhileAWireWasLookedAtIsNoTouch) {
   EXPECT_EQ(touch_refusal(s.does({kRelease, kClick})).kind, TouchRefusal::Kind::kPressAgain);
 }
 
-/// The reference stands on the box's right, its foot 20 mm from the dimple's side.
+/// The reference stands on the box's right, its foot 20 mm from the landmark's side.
 class AnchoredLandmark : public ::testing::Test {
  protected:
   AnchoredLandmark() : s({"L4"}, test::three_places(), Verification::kByTouch, false, true) {
@@ -219,11 +219,11 @@ TEST_F(AnchoredLandmark, IsRefusedNearTheReference) {
 }
 
 TEST_F(AnchoredLandmark, SaysThatItIsTheReferenceThatMoved) {
-  s.touches_dimple();
+  s.touches_landmark();
   s.says("next");
   s.says("next");
   s.says("next");
-  const Guidance& g = s.touches_dimple(Vec3{0.002, 0, 0});
+  const Guidance& g = s.touches_landmark(Vec3{0.002, 0, 0});
   ASSERT_NE(said<LandmarkMoved>(g), nullptr);
   EXPECT_TRUE(said<LandmarkMoved>(g)->anchored);
 }
@@ -255,7 +255,7 @@ TEST(Landmarking, OfABoneThatDoesNotReachSoFarMayLieNearer) {
 TEST(Landmark, TheLimitFollowsHowSurelyBothTouchesWereSeen) {
   const double sharp_m = landmark_limit_m(landmark_distance_sd_m(0.0001, 0.0001, true));
   EXPECT_NEAR(sharp_m,
-              kLandmarkSds * std::sqrt(2.0 * (1e-8 + kDimpleSd_m * kDimpleSd_m +
+              kLandmarkSds * std::sqrt(2.0 * (1e-8 + kLandmarkSeatingSd_m * kLandmarkSeatingSd_m +
                                               std::pow(kLastingSdAnchored_m, 2))),
               kExact);
   EXPECT_GT(landmark_limit_m(landmark_distance_sd_m(0.0003, 0.0001, true)), sharp_m);

@@ -66,7 +66,7 @@ TEST(MapMoved, AStrokeUnderWayDoesNotGoOn) {
 }
 
 TEST(MapMoved, TakesARegistrationBackInEveryStep) {
-  for (const Step step : {Step::kVerify, Step::kAccepted, Step::kGuide}) {
+  for (const Step step : {Step::kVerify, Step::kTouchLandmark, Step::kGuide}) {
     ScriptedOperation s;
     s.registers_first_level();
     if (step != Step::kVerify) {

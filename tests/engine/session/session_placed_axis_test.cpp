@@ -54,10 +54,10 @@ TEST_F(PlacedSession, ATurnedSleeveTellsTheWireWithoutTheGuidesAxis) {
 
 TEST_F(PlacedSession, TheAxisIsCorrectedWithConsentBeforeTheNextScrew) {
   measures_turning(s, 0.02, 1.0);
-  EXPECT_EQ(step_of(s.says("next")), "accepted L4");
+  EXPECT_EQ(step_of(s.says("next")), "landmark L4");
   s.says("accept");
   EXPECT_EQ(said<AxisCorrected>(s.pair()), nullptr) << "nothing was offered yet";
-  s.touches_dimple();
+  s.touches_landmark();
   EXPECT_EQ(said<AxisCorrected>(s.pair()), nullptr) << "not without a word";
   EXPECT_THAT(detail_text(s.pair().status),
               HasSubstr("guide's axis 1.1° off: say accept result to correct it"));
@@ -73,7 +73,7 @@ TEST_F(PlacedSession, TheAxisIsCorrectedWithConsentBeforeTheNextScrew) {
 TEST_F(PlacedSession, AnAxisThatIsRightIsLeftAlone) {
   measures_turning(s, 0.001, 1.0);
   s.says("next");
-  s.touches_dimple();
+  s.touches_landmark();
   s.says("accept");
   EXPECT_EQ(said<AxisCorrected>(s.pair()), nullptr);
 }

@@ -44,7 +44,7 @@ TEST_F(PlacedSession, DeleteRedoesItThroughAnotherEntryOnceTheLandmarkWasTouched
   const Point<Vertebra> target = level().plan.screws[0].target;
   measures(0.0025, 0.0);
   const Guidance& g = s.says("delete");
-  EXPECT_EQ(step_of(g), "accepted L4");
+  EXPECT_EQ(step_of(g), "landmark L4");
   ASSERT_NE(said<ScrewRedone>(g), nullptr);
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kTouchMore);
   const nav::ScrewPlan& plan = level().plan.screws[0];
@@ -57,8 +57,8 @@ TEST_F(PlacedSession, DeleteRedoesItThroughAnotherEntryOnceTheLandmarkWasTouched
   EXPECT_FALSE(level().screws[0].done);
   EXPECT_EQ(level().screws[0].redone, 1);
   EXPECT_TRUE(level().accepted);
-  EXPECT_EQ(s.says("next").step, Step::kAccepted) << "the landmark comes first";
-  s.touches_dimple();
+  EXPECT_EQ(s.says("next").step, Step::kTouchLandmark) << "the landmark comes first";
+  s.touches_landmark();
   EXPECT_EQ(step_of(s.says("next")), "guide L4 left") << "the same screw";
   s.says("next");
   EXPECT_EQ(s.pair().wire, nullptr) << "what was measured is of the wire that is out";
@@ -68,7 +68,7 @@ TEST_F(PlacedSession, DeleteIsOfAWireBeyondALimitAlone) {
   EXPECT_EQ(notice_of(s.says("delete")), Notice::kNothingToDelete);
   measures(0.0005, 0.0);
   EXPECT_EQ(notice_of(s.says("delete")), Notice::kNotPossibleNow);
-  EXPECT_EQ(step_of(s.pair()), "placed L4 left");
+  EXPECT_EQ(step_of(s.pair()), "measure L4 left");
   EXPECT_NE(s.pair().wire, nullptr);
 }
 
@@ -76,11 +76,11 @@ TEST_F(PlacedSession, ASecondTimeDeleteMustBeSaidAgain) {
   measures(0.0025, 0.0);
   s.says("delete");
   drill();
-  ASSERT_EQ(step_of(s.pair()), "placed L4 left");
+  ASSERT_EQ(step_of(s.pair()), "measure L4 left");
   measures(0.0025, 0.0);
   ASSERT_NE(said<ConfirmRedo>(s.says("delete")), nullptr);
-  EXPECT_EQ(step_of(s.pair()), "placed L4 left");
-  EXPECT_EQ(step_of(s.says("delete")), "accepted L4");
+  EXPECT_EQ(step_of(s.pair()), "measure L4 left");
+  EXPECT_EQ(step_of(s.says("delete")), "landmark L4");
   EXPECT_EQ(level().screws[0].redone, 2);
 }
 
@@ -103,7 +103,7 @@ class NoRoomSession : public PlacedSession {
 TEST_F(NoRoomSession, OffersOnlyToKeepIt) {
   measures(0.0, 0.05);
   const Guidance& g = s.says("delete");
-  EXPECT_EQ(step_of(g), "placed L4 left");
+  EXPECT_EQ(step_of(g), "measure L4 left");
   ASSERT_NE(said<NoOtherEntry>(g), nullptr);
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kKeepWire);
   EXPECT_EQ(checks_asked(s.pairs(120).status), ChecksAsked::kKeepWire) << "without the message";
@@ -111,7 +111,7 @@ TEST_F(NoRoomSession, OffersOnlyToKeepIt) {
   EXPECT_EQ(level().plan.screws[0].entry.v, kLeftEntry);
   EXPECT_EQ(level().screws[0].redone, 0);
   s.says("accept");
-  EXPECT_EQ(step_of(s.says("next")), "accepted L4");
+  EXPECT_EQ(step_of(s.says("next")), "landmark L4");
 }
 
 TEST_F(PlacedSession, APlanIsChangedToSuitTheWire) {
@@ -119,13 +119,13 @@ TEST_F(PlacedSession, APlanIsChangedToSuitTheWire) {
   ASSERT_FALSE(measures(0.0025, 0.0).wire->within());
   const Guidance& g = s.says("move lateral two");
   ASSERT_NE(said<ScrewReplanned>(g), nullptr);
-  EXPECT_EQ(step_of(g), "placed L4 left");
+  EXPECT_EQ(step_of(g), "measure L4 left");
   EXPECT_NEAR(level().plan.screws[0].entry.v.x, kLeftEntry.x + 0.002, 1e-4);
   ASSERT_NE(s.pair().wire, nullptr);
   EXPECT_NEAR(s.pair().wire->axis.entry_m.value, 0.0005, 1e-4);
   EXPECT_TRUE(s.pair().wire->within());
   EXPECT_TRUE(level().screws[0].replanned());
-  EXPECT_EQ(step_of(s.says("next")), "accepted L4");
+  EXPECT_EQ(step_of(s.says("next")), "landmark L4");
   EXPECT_TRUE(level().screws[0].executed) << "where the tool went is not forgotten";
 }
 
@@ -133,8 +133,8 @@ TEST_F(PlacedSession, APlanThatSuitsItLessStillWaitsForAWord) {
   measures(0.0025, 0.0);
   s.says("move medial two");
   EXPECT_NEAR(s.pair().wire->axis.entry_m.value, 0.0045, 1e-4);
-  EXPECT_EQ(step_of(s.says("next")), "placed L4 left");
-  EXPECT_EQ(step_of(s.says("delete")), "accepted L4");
+  EXPECT_EQ(step_of(s.says("next")), "measure L4 left");
+  EXPECT_EQ(step_of(s.says("delete")), "landmark L4");
 }
 
 TEST_F(PlacedSession, NoPlanIsChangedAwayFromAWireThatNobodyLookedAt) {

@@ -100,7 +100,7 @@ class UnknownRegistration : public PlacedSession {
 TEST_F(UnknownRegistration, WithoutASdNothingIsMeasured) {
   EXPECT_EQ(touch_refusal(measures(0.0, 0.0)).kind, Kind::kEntryUnsure);
   EXPECT_THAT(detail_text(s.pair().status), HasSubstr("uncertainty unknown"));
-  EXPECT_EQ(step_of(s.says("next")), "accepted L4");
+  EXPECT_EQ(step_of(s.says("next")), "landmark L4");
 }
 
 class LooseAxis : public PlacedSession {

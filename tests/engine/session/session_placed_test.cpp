@@ -21,8 +21,8 @@ constexpr double kJust = 5e-5;
 
 TEST_F(PlacedSession, FollowsEveryScrewAndAsksForTheSleeve) {
   const Guidance& g = s.pair();
-  EXPECT_EQ(step_of(g), "placed L4 left");
-  EXPECT_EQ(checks_asked(g.status), ChecksAsked::kMeasureWire);
+  EXPECT_EQ(step_of(g), "measure L4 left");
+  EXPECT_EQ(checks_asked(g.status), ChecksAsked::kRecordWire);
   EXPECT_EQ(g.status.tool, "guide");
   EXPECT_EQ(g.wire, nullptr);
   EXPECT_FALSE(g.tool) << "nothing is guided";
@@ -40,7 +40,7 @@ TEST_F(PlacedSession, AWireWithinTheLimitsIsTold) {
   EXPECT_EQ(g.wire, &wire);
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kPassed);
   EXPECT_THAT(detail_text(g.status), HasSubstr("say go to next"));
-  EXPECT_EQ(step_of(s.says("next")), "accepted L4") << "the landmark before the other screw";
+  EXPECT_EQ(step_of(s.says("next")), "landmark L4") << "the landmark before the other screw";
   EXPECT_TRUE(level().screws[0].done);
   ASSERT_TRUE(level().screws[0].wire.measured);
   EXPECT_FALSE(level().screws[0].wire.measured->kept);
@@ -68,7 +68,7 @@ TEST_F(PlacedSession, TheSdHoldsRegistrationPoseAndCalibration) {
 }
 
 TEST_F(PlacedSession, NextBeforeAnythingWasMeasuredGoesOnAndIsKnown) {
-  EXPECT_EQ(step_of(s.says("next")), "accepted L4");
+  EXPECT_EQ(step_of(s.says("next")), "landmark L4");
   EXPECT_TRUE(level().screws[0].done);
   EXPECT_TRUE(level().screws[0].wire.asked);
   EXPECT_FALSE(level().screws[0].wire.measured);
@@ -82,7 +82,7 @@ TEST_F(PlacedSession, BeyondALimitNextIsNotTakenBeforeAWord) {
   EXPECT_TRUE(g.wire->entry_within());
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kDecideOnWire);
   EXPECT_THAT(detail_text(g.status), HasSubstr("limit 2.00"));
-  EXPECT_EQ(step_of(s.says("next")), "placed L4 left");
+  EXPECT_EQ(step_of(s.says("next")), "measure L4 left");
   EXPECT_NE(said<WireUndecided>(s.pair()), nullptr);
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kDecideOnWire) << "in a message as well";
   EXPECT_FALSE(level().screws[0].done);
@@ -94,7 +94,7 @@ TEST_F(PlacedSession, TheLimitOfTheEntryIsOneOfItsOwn) {
   const Guidance& g = measures(limit_m + kJust, 0.0);
   EXPECT_FALSE(g.wire->within());
   EXPECT_TRUE(g.wire->angle_within());
-  EXPECT_EQ(step_of(s.says("next")), "placed L4 left");
+  EXPECT_EQ(step_of(s.says("next")), "measure L4 left");
 }
 
 TEST_F(PlacedSession, AcceptKeepsItBeyondTheLimit) {
@@ -104,7 +104,7 @@ TEST_F(PlacedSession, AcceptKeepsItBeyondTheLimit) {
   s.says("accept");
   EXPECT_TRUE(s.pair().wire->kept);
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kPassed);
-  EXPECT_EQ(step_of(s.says("next")), "accepted L4");
+  EXPECT_EQ(step_of(s.says("next")), "landmark L4");
   ASSERT_TRUE(level().screws[0].wire.measured);
   EXPECT_TRUE(level().screws[0].wire.measured->kept);
   EXPECT_EQ(level().screws[0].redone, 0);
@@ -114,9 +114,9 @@ TEST_F(PlacedSession, MeasuredAnewItIsUndecidedAnew) {
   measures(0.003, 0.0);
   s.says("accept");
   EXPECT_FALSE(measures(0.0028, 0.0).wire->kept);
-  EXPECT_EQ(step_of(s.says("next")), "placed L4 left");
+  EXPECT_EQ(step_of(s.says("next")), "measure L4 left");
   EXPECT_TRUE(measures(0.0005, 0.0).wire->within());
-  EXPECT_EQ(step_of(s.says("next")), "accepted L4");
+  EXPECT_EQ(step_of(s.says("next")), "landmark L4");
 }
 
 TEST_F(PlacedSession, RejectThrowsTheRegistrationAway) {
@@ -137,9 +137,9 @@ TEST_F(PlacedSession, AMapThatMovesTakesTheRegistrationAndTheMeasurement) {
 
 TEST_F(PlacedSession, TheLastScrewOfALevelGoesOnToTheNextLevel) {
   s.says("next");
-  s.touches_dimple();
+  s.touches_landmark();
   s.says("next");
-  ASSERT_EQ(step_of(s.says("next")), "placed L4 right");
+  ASSERT_EQ(step_of(s.says("next")), "measure L4 right");
   EXPECT_EQ(step_of(s.says("next")), "digitize L5");
 }
 

@@ -57,7 +57,7 @@ TEST(PatientReference, HidesThePatientAndSaysSoOnceItIsStale) {
 }
 
 TEST(PatientReference, HidesThePatientInEveryStepThatShowsAny) {
-  for (const Step step : {Step::kVerify, Step::kAccepted, Step::kGuide, Step::kRod}) {
+  for (const Step step : {Step::kVerify, Step::kTouchLandmark, Step::kGuide, Step::kRod}) {
     ScriptedOperation s(step == Step::kRod ? std::vector<std::string>{"L4", "L5"}
                                            : std::vector<std::string>{"L4"});
     s.tracker().hang_on_reference();

@@ -47,11 +47,11 @@ TEST(SessionReplanSteps, ByTouchAcceptConsentsFirstAndCorrectsTheTipElse) {
 TEST(SessionReplanSteps, TheLandmarkOfTheNextScrewIsNotTheLast) {
   Replan4 s({}, Verification::kByTouch);
   s.accepts_first_by_touch();
-  s.touches_dimple();
+  s.touches_landmark();
   s.says("next");
   s.says("next");
   s.says("next");  // its wire is not measured
-  ASSERT_EQ(step_of(s.pair()), "accepted L4");
+  ASSERT_EQ(step_of(s.pair()), "landmark L4");
   const auto* done = said<ScrewReplanned>(s.says("move cranial one"));
   ASSERT_NE(done, nullptr);
   EXPECT_EQ(done->to.side, Side::kRight) << "the left one is done";
@@ -63,7 +63,7 @@ TEST(SessionReplanSteps, WhatTheStepAsksForStaysAskedBesideIt) {
   for (const char* phrase : {"shorter", "move cranial", "undo", "undo"}) {
     const Guidance& g = s.says(phrase);
     ASSERT_NE(g.status.message, nullptr) << phrase;
-    EXPECT_THAT(detail_text(g.status), HasSubstr("; touch a new dimple"));
+    EXPECT_THAT(detail_text(g.status), HasSubstr("; touch a new landmark"));
     EXPECT_EQ(checks_asked(g.status), ChecksAsked::kTouchMore) << phrase;
   }
 }

@@ -95,7 +95,7 @@ TEST(RequestedCommand, AcceptsNothingBeforeItWasShown) {
   s.asks(command("accept"));
   EXPECT_EQ(s.session().current_step(), Step::kVerify);
   s.asks(command("accept"));
-  EXPECT_EQ(s.session().current_step(), Step::kAccepted);
+  EXPECT_EQ(s.session().current_step(), Step::kTouchLandmark);
 }
 
 TEST(RequestedCommand, IsAnsweredByWhatBecameOfIt) {
@@ -135,7 +135,7 @@ TEST(RequestedCommand, ThatTheChecksDoNotBearOutIsNotTaken) {
   s.checks_by_touch();
   EXPECT_EQ(s.answer_to("accept"), "accept: taken") << "the control";
   EXPECT_THAT(s.answer_to("next"), ::testing::Not(HasSubstr("taken"))) << "the landmark first";
-  EXPECT_EQ(s.session().current_step(), Step::kAccepted);
+  EXPECT_EQ(s.session().current_step(), Step::kTouchLandmark);
 }
 
 class RequestedPlan : public ::testing::Test {

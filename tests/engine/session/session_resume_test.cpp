@@ -59,7 +59,7 @@ TEST(ResumedSession, ShowsNothingOnThePatientBeforeItsLandmarkIsFound) {
   EXPECT_EQ(shown(s.pair()), 0u) << "in setup";
   s.says("start");
   EXPECT_EQ(shown(s.pair()), 0u) << "in accepted";
-  s.touches_dimple();
+  s.touches_landmark();
   s.tracker().guide = test::guide_at({0.015, 0.020, 0.0}, 0.0);
   s.says("next");
   EXPECT_GT(shown(s.pair()), 0u) << "the control";
@@ -71,13 +71,13 @@ TEST(ResumedSession, GuidesNothingBeforeItsLandmarkIsFound) {
   ASSERT_TRUE(is_ok(r.resumed));
   ScriptedOperation& s = *r.operation;
   EXPECT_EQ(step_of(s.pair()), "setup");
-  EXPECT_EQ(step_of(s.says("start")), "accepted L4") << "where it stood, or as near as can be";
+  EXPECT_EQ(step_of(s.says("start")), "landmark L4") << "where it stood, or as near as can be";
   const LevelState& level = s.session().levels()[0];
   EXPECT_TRUE(level.unverified && level.accepted && level.registration);
   EXPECT_FALSE(level.usable());
   EXPECT_EQ(notice_of(s.says("next")), Notice::kLandmarkMissing);
-  EXPECT_EQ(s.session().current_step(), Step::kAccepted);
-  s.touches_dimple();
+  EXPECT_EQ(s.session().current_step(), Step::kTouchLandmark);
+  s.touches_landmark();
   EXPECT_TRUE(level.usable()) << "found where it was";
   EXPECT_EQ(step_of(s.says("next")), "guide L4 left");
 }
@@ -88,7 +88,7 @@ TEST(ResumedSession, IsVerifiedOnceMoreWhereItsLandmarkMoved) {
   ScriptedOperation& s = *r.operation;
   s.pair();
   s.says("start");
-  const Guidance& moved = s.touches_dimple({0.004, 0, 0});
+  const Guidance& moved = s.touches_landmark({0.004, 0, 0});
   EXPECT_EQ(step_of(moved), "verify L4");
   EXPECT_EQ(notice_of(moved), Notice::kLandmarkMoved);
   const LevelState& level = s.session().levels()[0];
@@ -97,7 +97,7 @@ TEST(ResumedSession, IsVerifiedOnceMoreWhereItsLandmarkMoved) {
   EXPECT_EQ(s.session().current_step(), Step::kVerify) << "not before places were touched";
   s.checks_by_touch();
   s.accepts();
-  EXPECT_EQ(s.session().current_step(), Step::kAccepted);
+  EXPECT_EQ(s.session().current_step(), Step::kTouchLandmark);
   EXPECT_TRUE(level.usable());
 }
 
@@ -114,12 +114,12 @@ TEST(ResumedSession, WithoutALandmarkCheckPointsVerify) {
   EXPECT_EQ(s.session().current_step(), Step::kVerify);
   s.checks_by_touch();
   s.accepts();
-  EXPECT_EQ(step_of(s.pair()), "accepted L4");
+  EXPECT_EQ(step_of(s.pair()), "landmark L4");
   EXPECT_TRUE(level.usable());
 }
 
 TEST(ResumedSession, InheritsNoPlaceOfTheHeadsetsMap) {
-  for (const Step step : {Step::kVerify, Step::kAccepted, Step::kGuide, Step::kPlaced}) {
+  for (const Step step : {Step::kVerify, Step::kTouchLandmark, Step::kGuide, Step::kMeasureWire}) {
     auto env = killed_in(step, false);
     ResumedOperation r(*env, false);
     ASSERT_TRUE(is_ok(r.resumed));
@@ -157,7 +157,7 @@ TEST(ResumedSession, GoesOnWithTheStrokesThatHangOnAReference) {
 }
 
 TEST(ResumedSession, DoubtsARegistrationThatWasMadeOfOtherPoints) {
-  auto env = killed_in(Step::kAccepted, true);
+  auto env = killed_in(Step::kTouchLandmark, true);
   std::vector<Record> records = read_log(*env, test::kLogPath)->records;
   const auto region = std::ranges::find(
       records, static_cast<std::uint16_t>(OperationRecord::kRegion), &Record::type);
@@ -264,19 +264,19 @@ TEST(ResumedSession, HashesTellOneVertexAndOneScrewApart) {
 }
 
 TEST(ResumeLines, SayWhatItWasAndWhatIsLost) {
-  auto on_map = killed_in(Step::kPlaced, false);
+  auto on_map = killed_in(Step::kMeasureWire, false);
   const auto lost = resume_lines(OperationLog::find(*on_map, kLogFolder).value());
   EXPECT_THAT(lost[0],
               HasSubstr("resuming out/operation.resume: case 'boxes', levels L4, L5, begun"));
   EXPECT_EQ(lost[1], "placed: no screw");
   EXPECT_EQ(lost[2],
-            "lost: of L4 2 regions, its accepted registration, its dimple, 3 check points");
+            "lost: of L4 2 regions, its accepted registration, its landmark, 3 check points");
   auto anchored = killed_in(Step::kRod, true);
   const auto rods = resume_lines(OperationLog::find(*anchored, kLogFolder).value());
   EXPECT_EQ(rods[1], "placed: L4 left, L4 right, L5 left, L5 right");
   auto guided = killed_in(Step::kGuide, true);
   EXPECT_THAT(resume_lines(OperationLog::find(*guided, kLogFolder).value()),
-              Contains("L4: accepted before, not verified: touch its dimple"));
+              Contains("L4: accepted before, not verified: touch its landmark"));
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TEST(Accept, IsRefusedInTheBatchOfTheRegistrationItself) {
   EXPECT_EQ(step_of(g), "verify L4");
   EXPECT_FALSE(g.levels[0].accepted);
   EXPECT_EQ(notice_of(g), Notice::kSaidTooEarly);
-  EXPECT_EQ(step_of(s.accepts()), "accepted L4") << "said again, it counts";
+  EXPECT_EQ(step_of(s.accepts()), "landmark L4") << "said again, it counts";
 }
 
 TEST(Accept, IsRefusedWhenItWasSaidBeforeAndUnderstoodLate) {
@@ -54,7 +54,7 @@ TEST(Accept, IsRefusedWhenItWasSaidBeforeAndUnderstoodLate) {
   s.hears_at(visible - Duration(1), "accept");
   EXPECT_EQ(s.pair().step, Step::kVerify);
   s.hears_at(visible, "accept");
-  EXPECT_EQ(s.pair().step, Step::kAccepted);
+  EXPECT_EQ(s.pair().step, Step::kTouchLandmark);
 }
 
 TEST(Accept, MustFollowTheNewRegistrationNotTheOneBeforeIt) {

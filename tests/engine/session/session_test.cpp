@@ -133,7 +133,7 @@ TEST(Session, GuidesOnlyAfterTheSurgeonsWord) {
   EXPECT_EQ(step_of(s.does({kDoubleClick})), "verify L4");
   EXPECT_FALSE(s.pair().levels[0].accepted);
   EXPECT_EQ(s.says("next").step, Step::kVerify);
-  EXPECT_EQ(step_of(s.says("accept")), "accepted L4");
+  EXPECT_EQ(step_of(s.says("accept")), "landmark L4");
   EXPECT_TRUE(s.pair().levels[0].accepted);
   EXPECT_FALSE(s.pair().tool.has_value());
   EXPECT_EQ(step_of(s.says("next")), "guide L4 left");

@@ -15,7 +15,7 @@ using test::touch_refusal;
 using ::testing::HasSubstr;
 using enum ClickerAction;
 
-constexpr Vec3 kDimple = ScriptedOperation::kDimple;
+constexpr Vec3 kLandmark = ScriptedOperation::kLandmark;
 constexpr double kExact = 1e-9;
 constexpr double kTilt_rad = 0.3;
 
@@ -25,8 +25,8 @@ class TipsSession : public ::testing::Test {
   TipsSession() : s({"L4", "L5"}, test::three_places(), Verification::kByTouch, false, true) {
     s.tracker().size_difference_sd = 0.0042;  // tags as printed, of unmeasured size
     s.accepts_first_by_touch();
-    s.touches_dimple();
-    s.tracker().pointer = test::pointer_at(kDimple + Vec3{0.2, 0, 0});
+    s.touches_landmark();
+    s.tracker().pointer = test::pointer_at(kLandmark + Vec3{0.2, 0, 0});
   }
   /// A click with the guide's tip there, according to its description.
   const Guidance& touches_by_guide(Vec3 tip) {
@@ -35,17 +35,18 @@ class TipsSession : public ::testing::Test {
     s.pair();
     return s.does({kRelease, kClick});
   }
-  /// Distance of the tip from the dimple when the description puts it there in another orientation.
+  /// Distance of the tip from the landmark when the description puts it there in another
+  /// orientation.
   double tip_off_m() {
-    s.tracker().guide = guide_at(kDimple, -kTilt_rad);
-    return (s.pairs(2).tool->measured->tip.v - kDimple).norm();
+    s.tracker().guide = guide_at(kLandmark, -kTilt_rad);
+    return (s.pairs(2).tool->measured->tip.v - kLandmark).norm();
   }
   ScriptedOperation s;
 };
 
 TEST_F(TipsSession, TipsThatAgreeAreToldAndLeftAlone) {
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kGuideTipHeld);
-  const Guidance& g = touches_by_guide(kDimple + Vec3{0.0006, 0, 0});
+  const Guidance& g = touches_by_guide(kLandmark + Vec3{0.0006, 0, 0});
   EXPECT_THAT(detail_text(g.status), HasSubstr("say go to next"));
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kPassed);
   s.says("accept");
@@ -56,7 +57,7 @@ TEST_F(TipsSession, TipsThatAgreeAreToldAndLeftAlone) {
 
 TEST_F(TipsSession, ADifferenceIsCorrectedOnlyWithConsent) {
   const Vec3 off{0.004, 0.001, -0.003};
-  const Guidance& g = touches_by_guide(kDimple + off);
+  const Guidance& g = touches_by_guide(kLandmark + off);
   EXPECT_THAT(detail_text(g.status), HasSubstr("guide's tip 5.1 mm from the pointer's"));
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kCorrectGuide);
   s.says("next");
@@ -66,7 +67,7 @@ TEST_F(TipsSession, ADifferenceIsCorrectedOnlyWithConsent) {
 /// If the tag sizes are not known yet, most of a difference may come from them.
 TEST_F(TipsSession, TheCorrectionIsOfTheToolHoweverItIsHeldAndByWhatIsKnown) {
   const Vec3 off{0.004, 0.001, -0.003};
-  touches_by_guide(kDimple + off);
+  touches_by_guide(kLandmark + off);
   s.tracker().guide = guide_at({0.3, 0.3, 0.3}, 1.2);  // moved before the consent
   const Guidance& g = s.says("accept");
   ASSERT_NE(said<TipCorrected>(g), nullptr);
@@ -75,10 +76,10 @@ TEST_F(TipsSession, TheCorrectionIsOfTheToolHoweverItIsHeldAndByWhatIsKnown) {
   EXPECT_GT(by_m, 0.1 * off.norm());
   EXPECT_LT(by_m, 0.5 * off.norm());
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kNone) << "while the message stands";
-  // In the same pose as in the dimple, its tip is nearer to the pointer's now.
+  // In the same pose as at the landmark, its tip is nearer to the pointer's now.
   s.says("next");
-  s.tracker().guide = guide_at(kDimple + off, kTilt_rad);
-  EXPECT_NEAR((s.pairs(2).tool->measured->tip.v - kDimple).norm(), off.norm() - by_m, kExact);
+  s.tracker().guide = guide_at(kLandmark + off, kTilt_rad);
+  EXPECT_NEAR((s.pairs(2).tool->measured->tip.v - kLandmark).norm(), off.norm() - by_m, kExact);
   EXPECT_NEAR(tip_off_m(), by_m, kExact) << "turned, the correction turns with it";
 }
 
@@ -128,20 +129,20 @@ TEST(TipCheck, SaysHowFarTheGuideMayBeOffThePointer) {
 }
 
 TEST_F(TipsSession, AGuideElsewhereIsNoTouchOfIt) {
-  const TouchRefusal why = touch_refusal(touches_by_guide(kDimple + Vec3{0.0151, 0, 0}));
+  const TouchRefusal why = touch_refusal(touches_by_guide(kLandmark + Vec3{0.0151, 0, 0}));
   EXPECT_EQ(why.kind, TouchRefusal::Kind::kTouchesApart);
   EXPECT_EQ(checks_asked(s.pairs(120).status), ChecksAsked::kGuideTipHeld) << "still to be done";
 }
 
 TEST_F(TipsSession, AreComparedBeforeEveryScrewAndAsHeldForIt) {
-  touches_by_guide(kDimple + Vec3{0.006, 0, 0});  // told, and left as it is
+  touches_by_guide(kLandmark + Vec3{0.006, 0, 0});  // told, and left as it is
   for (int i = 0; i < 3; ++i) {  // guides the first screw, measures no wire, and comes back
     s.says("next");
   }
   s.tracker().guide.reset();
-  s.touches_dimple();
+  s.touches_landmark();
   const Guidance g = s.pair();
-  EXPECT_EQ(g.step, Step::kAccepted);
+  EXPECT_EQ(g.step, Step::kTouchLandmark);
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kGuideTipHeld);
   EXPECT_THAT(detail_text(g.status), HasSubstr("guide's tip, as drilling"));
   ASSERT_NE(said<NotPossibleNow>(s.says("accept")), nullptr) << "the old one is past";
@@ -150,10 +151,10 @@ TEST_F(TipsSession, AreComparedBeforeEveryScrewAndAsHeldForIt) {
 TEST(Tips, AreComparedOnceOnAMapThatDrifts) {
   ScriptedOperation s({"L4", "L5"}, {}, Verification::kByTouch);
   s.accepts_first_by_touch();
-  s.touches_dimple();
-  s.tracker().pointer = test::pointer_at(kDimple + Vec3{0.2, 0, 0});
+  s.touches_landmark();
+  s.tracker().pointer = test::pointer_at(kLandmark + Vec3{0.2, 0, 0});
   ASSERT_EQ(checks_asked(s.pair().status), ChecksAsked::kGuideTip);
-  s.tracker().guide = guide_at(kDimple + Vec3{0.0006, 0, 0}, kTilt_rad);
+  s.tracker().guide = guide_at(kLandmark + Vec3{0.0006, 0, 0}, kTilt_rad);
   s.does({kPress});
   s.pair();
   s.does({kRelease, kClick});
@@ -161,17 +162,17 @@ TEST(Tips, AreComparedOnceOnAMapThatDrifts) {
     s.says("next");
   }
   s.tracker().guide.reset();
-  s.touches_dimple();
+  s.touches_landmark();
   const Guidance& g = s.pair();
-  EXPECT_EQ(g.step, Step::kAccepted);
+  EXPECT_EQ(g.step, Step::kTouchLandmark);
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kCorrectGuide) << "of the first comparison";
 }
 
 TEST_F(TipsSession, NextIsTakenWithoutIt) { EXPECT_EQ(s.says("next").step, Step::kGuide); }
 
-TEST_F(TipsSession, ThePointerInTheDimpleIsThePointers) {
-  s.tracker().guide = guide_at(kDimple + Vec3{0.012, 0, 0}, 0.0);
-  s.touches_dimple();
+TEST_F(TipsSession, ThePointerInTheLandmarkIsThePointers) {
+  s.tracker().guide = guide_at(kLandmark + Vec3{0.012, 0, 0}, 0.0);
+  s.touches_landmark();
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kGuideTipHeld) << "the guide lay beside it";
 }
 

@@ -61,7 +61,7 @@ TEST(Wording, SaysWhyAWireWasNotMeasuredAndWhatBecomesOfIt) {
             "redone 2 times already: say delete last again to redo it, accept result to keep it");
   EXPECT_EQ(line_with(Message(ScrewRedone{0.0034, 0.0018})),
             "new entry 3.4 mm from the hole, clearance 1.8 mm: take the wire out and touch the "
-            "dimple");
+            "landmark");
 }
 
 }  // namespace

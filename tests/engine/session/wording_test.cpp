@@ -94,7 +94,7 @@ TEST(Wording, AsksForTheNextActInEveryStepAndSaysNoFigures) {
   EXPECT_EQ(line_in(Step::kDigitize, StrokesSoFar{812}), "stroke the bone");
   EXPECT_EQ(line_in(Step::kRegistering, {}), "wait");
   EXPECT_EQ(line_in(Step::kVerify, ByEye{}), "say accept result or reject level");
-  EXPECT_EQ(line_in(Step::kAccepted, ByEye{}), "say go to next");
+  EXPECT_EQ(line_in(Step::kTouchLandmark, ByEye{}), "say go to next");
   EXPECT_EQ(line_in(Step::kGuide, {}), "") << "follows from what a frame shows";
   EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{0}), "touch the first head");
   EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{1}), "touch the next head");
@@ -109,13 +109,13 @@ TEST(Wording, AsksForTheNextActInEveryStepAndSaysNoFigures) {
   EXPECT_EQ(line_in(Step::kVerify, ChecksSoFar{&verdict}), "passed: say accept result");
   EXPECT_EQ(line_in(Step::kVerify, ChecksSoFar{&verdict, 0.0023}),
             "moved 2.3 mm; passed: say accept result");
-  EXPECT_EQ(line_in(Step::kPlaced, WireSoFar{}), "sleeve over wire, turn, click");
+  EXPECT_EQ(line_in(Step::kMeasureWire, WireSoFar{}), "sleeve over wire, turn, click");
 }
 
 TEST(Wording, AsksForTheLandmarkAndOnceItWasFoundToGoOn) {
-  EXPECT_EQ(line_with(LandmarkSoFar{false, {}}), "touch a new dimple");
+  EXPECT_EQ(line_with(LandmarkSoFar{false, {}}), "touch a new one");
   EXPECT_EQ(line_with(LandmarkSoFar{true, LandmarkTouch{true, 0, 0.0, 0.0015}}), "say go to next");
-  EXPECT_EQ(line_with(LandmarkSoFar{true, {}}), "touch the dimple");
+  EXPECT_EQ(line_with(LandmarkSoFar{true, {}}), "touch it");
   EXPECT_EQ(line_with(LandmarkSoFar{true, LandmarkTouch{false, 0, 0.0004, 0.0015}}),
             "say go to next");
   EXPECT_EQ(line_with(LandmarkSoFar{true, LandmarkTouch{false, 1, 0.0, 0.0015}}),
@@ -125,7 +125,7 @@ TEST(Wording, AsksForTheLandmarkAndOnceItWasFoundToGoOn) {
   warned.tag_size_off = 0.02;
   warned.state = LandmarkSoFar{true, {}};
   EXPECT_EQ(detail_text(warned),
-            "pointer: tag 2.0 % larger than stated, check print and unit; touch the dimple");
+            "pointer: tag 2.0 % larger than stated, check print and unit; touch the landmark");
 }
 
 TEST(Wording, SaysEveryMessage) {
@@ -157,21 +157,22 @@ TEST(Wording, SaysEveryMessage) {
             "head not recorded: hold too long");
   EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kCheckPoint, {Touch::kTooMany}})),
             "check point not recorded: limit of 48 check points reached");
-  EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kLandmark, {Touch::kTooNear, 0.022, 0.030}})),
-            "dimple not recorded: 22 mm from the reference, at least 30 mm: make it farther away");
+  EXPECT_EQ(
+      line_with(Message(TouchNotRecorded{What::kLandmark, {Touch::kTooNear, 0.022, 0.030}})),
+      "landmark not recorded: 22 mm from the reference, at least 30 mm: make it farther away");
   EXPECT_EQ(
       line_with(Message(TouchNotRecorded{What::kLandmark, {Touch::kTouchesApart, 0.0031, 0.0021}})),
-      "dimple not recorded: touches 3.1 mm apart, limit 2.1 mm: touch again");
+      "landmark not recorded: touches 3.1 mm apart, limit 2.1 mm: touch again");
   EXPECT_EQ(line_with(Message(NothingToDelete{NothingToDelete::What::kLandmark})),
-            "no touch of the dimple to delete");
-  EXPECT_EQ(line_with(Message(LandmarkMissing{false})), "not yet: touch a new dimple");
-  EXPECT_EQ(line_with(Message(LandmarkMissing{true})), "not yet: touch the dimple");
+            "no touch of the landmark to delete");
+  EXPECT_EQ(line_with(Message(LandmarkMissing{false})), "not yet: touch a new landmark");
+  EXPECT_EQ(line_with(Message(LandmarkMissing{true})), "not yet: touch the landmark");
   EXPECT_EQ(line_with(Message(LandmarkMoved{0.0023, 0.0014, false})),
             "the patient or the map moved 2.3 mm, limit 1.4 mm: check again or reject level");
   EXPECT_EQ(line_with(Message(LandmarkMoved{0.00161, 0.0016, true})),
             "the reference moved 1.61 mm, limit 1.60 mm: check again or reject level");
   EXPECT_EQ(line_with(Message(BoneUnchecked{49.2, 0.0014})),
-            "bone not checked for 49 s, the map may have drifted 1.4 mm: touch the dimple");
+            "bone not checked for 49 s, the map may have drifted 1.4 mm: touch the landmark");
   EXPECT_EQ(line_with(Message(NoRod{{"2 heads lie 0.4 mm apart, at least 1.0 mm"}})),
             "no rod: 2 heads lie 0.4 mm apart, at least 1.0 mm");
   EXPECT_EQ(line_with(Message(MapMoved{Step::kDigitize})),

@@ -164,7 +164,7 @@ std::string workflow_text() {
          "guided:\n\n" +
          rules_by_step(workflow_detail::kRulesRodsAlone) +
          "\nWhere the eye alone verifies (`paper`), these answers stand instead. A study that "
-         "leaves out check points,\nthe dimple or the measurement of wires has the answers of "
+         "leaves out check points,\nthe landmark or the measurement of wires has the answers of "
          "`verify`, `accepted` or `guide`; without the\nlandmark, that of `digitize`:\n\n" +
          rules_by_step(workflow_detail::kRulesByEye) +
          "\nWhere a study leaves out that the landmark is touched again:\n\n" +
@@ -205,14 +205,14 @@ TEST(Workflow, NothingTheEngineFindsOutIsRefusedWhereItCanHappen) {
                                                 {Step::kDigitize, Event::kAcceptanceRestored},
                                                 {Step::kDigitize, Event::kNoScrewLeft},
                                                 {Step::kDigitize, Event::kNoRodPlanned},
-                                                {Step::kAccepted, Event::kLandmarkMoved},
+                                                {Step::kTouchLandmark, Event::kLandmarkMoved},
                                                 {Step::kGuide, Event::kBoneUnchecked},
-                                                {Step::kPlaced, Event::kScrewRedone},
-                                                {Step::kPlaced, Event::kNoOtherEntry},
-                                                {Step::kPlaced, Event::kAnotherScrew},
-                                                {Step::kPlaced, Event::kAnotherLevel},
-                                                {Step::kPlaced, Event::kNoScrewLeft},
-                                                {Step::kPlaced, Event::kNoRodPlanned},
+                                                {Step::kMeasureWire, Event::kScrewRedone},
+                                                {Step::kMeasureWire, Event::kNoOtherEntry},
+                                                {Step::kMeasureWire, Event::kAnotherScrew},
+                                                {Step::kMeasureWire, Event::kAnotherLevel},
+                                                {Step::kMeasureWire, Event::kNoScrewLeft},
+                                                {Step::kMeasureWire, Event::kNoRodPlanned},
                                                 {Step::kRod, Event::kAnotherSide},
                                                 {Step::kRod, Event::kNoSideLeft}};
   for (const auto& [step, event] : kRaised) {
@@ -293,12 +293,13 @@ TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
     const auto event = static_cast<Event>(e);
     const std::set<State> states = every_state()[i / kStepCount / kEventCount];
     const Step next = answer(table, step, event, in(states)).next;
-    if (!by_touch && step == Step::kPlaced) {
-      EXPECT_NE(answer(Step::kGuide, event, GetParam()).next, Step::kPlaced) << "never reached";
+    if (!by_touch && step == Step::kMeasureWire) {
+      EXPECT_NE(answer(Step::kGuide, event, GetParam()).next, Step::kMeasureWire)
+          << "never reached";
       continue;
     }
-    if (next == Step::kAccepted && step != Step::kAccepted) {
-      const bool after_screw = by_touch && step == Step::kPlaced &&
+    if (next == Step::kTouchLandmark && step != Step::kTouchLandmark) {
+      const bool after_screw = by_touch && step == Step::kMeasureWire &&
                                (event == Event::kAnotherScrew || event == Event::kScrewRedone);
       const bool drifted = by_touch && step == Step::kGuide && event == Event::kBoneUnchecked;
       // Accepted by the surgeon before the program ended; the landmark shows whether it still
@@ -311,13 +312,13 @@ TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
           << s << " " << e;
     }
     if (next == Step::kGuide && step != Step::kGuide) {
-      EXPECT_TRUE(step == Step::kAccepted && event == Event::kSayNext &&
+      EXPECT_TRUE(step == Step::kTouchLandmark && event == Event::kSayNext &&
                   (!by_touch || states.contains(State::kLandmarkTouched)))
           << s << " " << e;
     }
   }
   EXPECT_EQ(answer(table, Step::kVerify, Event::kSayAccept, in({State::kChecksPassed})),
-            (Cell{Step::kAccepted, Action::kAccept}));
+            (Cell{Step::kTouchLandmark, Action::kAccept}));
   EXPECT_EQ(
       answer(table, Step::kVerify, Event::kSayAccept, in({State::kNotShown, State::kChecksPassed})),
       (Cell{Step::kVerify, Action::kExplainNotShown}));
@@ -332,37 +333,39 @@ TEST(Workflow, AcceptAnswersWhatWasAskedAndAPendingBreachFirst) {
   const auto accepted = [](Step step, std::set<State> states) {
     return answer(kWorkflow, step, Event::kSayAccept, in(std::move(states))).action;
   };
-  for (const Step step : {Step::kAccepted, Step::kGuide, Step::kPlaced}) {
+  for (const Step step : {Step::kTouchLandmark, Step::kGuide, Step::kMeasureWire}) {
     EXPECT_EQ(accepted(step, {}), Action::kRefuse) << "nothing was asked";
     EXPECT_EQ(accepted(step, {State::kBreachPending, State::kCorrectionOffered,
                               State::kLandmarkTouched, State::kWireBeyondLimit}),
               Action::kTakeBreach);
   }
-  EXPECT_EQ(accepted(Step::kAccepted, {State::kLandmarkTouched}), Action::kRefuse);
-  EXPECT_EQ(accepted(Step::kAccepted, {State::kLandmarkTouched, State::kCorrectionOffered}),
+  EXPECT_EQ(accepted(Step::kTouchLandmark, {State::kLandmarkTouched}), Action::kRefuse);
+  EXPECT_EQ(accepted(Step::kTouchLandmark, {State::kLandmarkTouched, State::kCorrectionOffered}),
             Action::kCorrectGuide);
-  EXPECT_EQ(accepted(Step::kPlaced, {State::kWireBeyondLimit}), Action::kKeepWire);
+  EXPECT_EQ(accepted(Step::kMeasureWire, {State::kWireBeyondLimit}), Action::kKeepWire);
 }
 
 TEST(Workflow, BeforeEveryScrewTheLandmarkIsTouched) {
   for (const Event event : {Event::kAnotherScrew, Event::kScrewRedone}) {
-    EXPECT_EQ(answer(Step::kPlaced, event), (Cell{Step::kAccepted, Action::kExpectLandmark}));
+    EXPECT_EQ(answer(Step::kMeasureWire, event),
+              (Cell{Step::kTouchLandmark, Action::kExpectLandmark}));
   }
-  EXPECT_EQ(answer(Step::kAccepted, Event::kSayNext),
-            (Cell{Step::kAccepted, Action::kExplainLandmark}));
-  EXPECT_EQ(answer(kWorkflow, Step::kAccepted, Event::kSayNext, in({State::kLandmarkTouched})),
+  EXPECT_EQ(answer(Step::kTouchLandmark, Event::kSayNext),
+            (Cell{Step::kTouchLandmark, Action::kExplainLandmark}));
+  EXPECT_EQ(answer(kWorkflow, Step::kTouchLandmark, Event::kSayNext, in({State::kLandmarkTouched})),
             (Cell{Step::kGuide, Action::kSelectScrew}));
-  EXPECT_EQ(answer(Step::kAccepted, Event::kLandmarkMoved),
+  EXPECT_EQ(answer(Step::kTouchLandmark, Event::kLandmarkMoved),
             (Cell{Step::kVerify, Action::kVerifyAgain}));
-  EXPECT_EQ(answer(Step::kAccepted, Event::kSayNext, Verification::kByEye),
+  EXPECT_EQ(answer(Step::kTouchLandmark, Event::kSayNext, Verification::kByEye),
             (Cell{Step::kGuide, Action::kSelectScrew}));
 }
 
 TEST(Workflow, AfterEveryScrewItsWireIsLookedAt) {
-  EXPECT_EQ(answer(Step::kGuide, Event::kSayNext), (Cell{Step::kPlaced, Action::kExpectWire}));
-  EXPECT_EQ(answer(Step::kPlaced, Event::kSayNext), (Cell{Step::kPlaced, Action::kFinishScrew}));
-  EXPECT_EQ(answer(kWorkflow, Step::kPlaced, Event::kSayNext, in({State::kWireBeyondLimit})),
-            (Cell{Step::kPlaced, Action::kExplainWire}));
+  EXPECT_EQ(answer(Step::kGuide, Event::kSayNext), (Cell{Step::kMeasureWire, Action::kExpectWire}));
+  EXPECT_EQ(answer(Step::kMeasureWire, Event::kSayNext),
+            (Cell{Step::kMeasureWire, Action::kFinishScrew}));
+  EXPECT_EQ(answer(kWorkflow, Step::kMeasureWire, Event::kSayNext, in({State::kWireBeyondLimit})),
+            (Cell{Step::kMeasureWire, Action::kExplainWire}));
   EXPECT_EQ(answer(Step::kGuide, Event::kAnotherScrew).action, Action::kRefuse);
   EXPECT_EQ(answer(Step::kGuide, Event::kSayNext, Verification::kByEye),
             (Cell{Step::kGuide, Action::kFinishScrew}));
@@ -379,7 +382,7 @@ TEST(Workflow, VerifyingByEyeDiffersInVerifyLandmarkAndWire) {
                                    event == Event::kNoRodPlanned || event == Event::kBoneUnchecked);
       // There is no landmark to show it.
       const bool restored = step == Step::kDigitize && event == Event::kAcceptanceRestored;
-      if (step == Step::kVerify || step == Step::kAccepted || after_screw || restored) {
+      if (step == Step::kVerify || step == Step::kTouchLandmark || after_screw || restored) {
         continue;
       }
       EXPECT_EQ(answer(step, event, Verification::kByEye), answer(step, event)) << s << " " << e;
@@ -387,7 +390,7 @@ TEST(Workflow, VerifyingByEyeDiffersInVerifyLandmarkAndWire) {
   }
   // The published method has nothing to click and nothing to take back.
   for (const Event event : {Event::kPress, Event::kRelease, Event::kClick, Event::kHold}) {
-    for (const Step step : {Step::kVerify, Step::kAccepted}) {
+    for (const Step step : {Step::kVerify, Step::kTouchLandmark}) {
       EXPECT_EQ(answer(step, event, Verification::kByEye), (Cell{step, Action::kIgnore}));
     }
   }
@@ -405,8 +408,8 @@ TEST(Workflow, LosingAToolNeverChangesTheStep) {
 }
 
 TEST(Workflow, AStalePoseHidesWhereverAToolIsUsed) {
-  for (const Step step : {Step::kDigitize, Step::kRegistering, Step::kVerify, Step::kAccepted,
-                          Step::kGuide, Step::kPlaced, Step::kRod}) {
+  for (const Step step : {Step::kDigitize, Step::kRegistering, Step::kVerify, Step::kTouchLandmark,
+                          Step::kGuide, Step::kMeasureWire, Step::kRod}) {
     EXPECT_EQ(answer(step, Event::kPoseStale).action, Action::kHideGuidance) << name_of(step);
   }
 }

@@ -87,9 +87,10 @@ void FakeEngine::take(const ClickerEvent& event) {
     double_clicked(event.time);
   }
   const bool checking = options_.check_points > 0 && (step_.step == Step::kVerify);
-  if (event.action == ClickerAction::kClick && step_.step == Step::kAccepted && options_.landmark) {
+  if (event.action == ClickerAction::kClick && step_.step == Step::kTouchLandmark &&
+      options_.landmark) {
     touched_landmark();
-  } else if (event.action == ClickerAction::kClick && step_.step == Step::kPlaced) {
+  } else if (event.action == ClickerAction::kClick && step_.step == Step::kMeasureWire) {
     measured_wire();
   } else if (event.action == ClickerAction::kClick && (checking || (step_.step == Step::kRod))) {
     touched();
@@ -142,8 +143,8 @@ void FakeEngine::touched_landmark() {
 }
 
 void FakeEngine::look_at_wire() {
-  enter({Step::kPlaced, level_label(), case_.screws[screw_].side});
-  checks_ = ChecksAsked::kMeasureWire;
+  enter({Step::kMeasureWire, level_label(), case_.screws[screw_].side});
+  checks_ = ChecksAsked::kRecordWire;
 }
 
 void FakeEngine::measured_wire() {
@@ -210,7 +211,7 @@ void FakeEngine::take(const Phrase& phrase) {
     ++level.deleted_regions;
     region_.clear();
   } else if ((step_.step == Step::kVerify) && phrase.text == "accept result") {
-    enter({Step::kAccepted, level_label(), {}});
+    enter({Step::kTouchLandmark, level_label(), {}});
     checks_ = options_.landmark ? ChecksAsked::kTouchMore : ChecksAsked::kNone;
   } else if ((step_.step == Step::kVerify) && phrase.text == "reject level") {
     level = {};
@@ -218,9 +219,9 @@ void FakeEngine::take(const Phrase& phrase) {
     enter({Step::kDigitize, level_label(), {}});
   } else if (step_.step == Step::kGuide && options_.wire && phrase.text == "go to next") {
     look_at_wire();
-  } else if (step_.step == Step::kPlaced) {
+  } else if (step_.step == Step::kMeasureWire) {
     answer_about_wire(phrase.text);
-  } else if (((step_.step == Step::kAccepted) || (step_.step == Step::kGuide)) &&
+  } else if (((step_.step == Step::kTouchLandmark) || (step_.step == Step::kGuide)) &&
              phrase.text == "go to next") {
     next_screw();
   } else if (step_ == StepOnDisplay{Step::kRod, {}, Side::kLeft} && phrase.text == "finish rod") {
@@ -231,11 +232,11 @@ void FakeEngine::take(const Phrase& phrase) {
 }
 
 void FakeEngine::next_screw() {
-  const bool before_one = (step_.step == Step::kAccepted);
+  const bool before_one = (step_.step == Step::kTouchLandmark);
   const std::size_t first = before_one ? (guided_here_ ? screw_ + 1 : 0) : screw_ + 1;
   for (std::size_t i = first; i < case_.screws.size(); ++i) {
     if (case_.screws[i].level == level_label() && options_.landmark && !before_one) {
-      enter({Step::kAccepted, level_label(), {}});
+      enter({Step::kTouchLandmark, level_label(), {}});
       checks_ = ChecksAsked::kTouchMore;
       return;
     }

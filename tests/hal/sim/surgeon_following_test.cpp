@@ -107,7 +107,7 @@ TEST(Surgeon, RejectsJustBeyondTheLimitAndAcceptsJustWithin) {
     const auto within =
         history_with_model_off((kAcceptedOverlay_m - kJust_m) * way, ErrorModel::perfect(), wires);
     ASSERT_GE(within.size(), 4U);
-    EXPECT_EQ(within[3], "accepted L4") << way.x << " " << way.y << " " << way.z;
+    EXPECT_EQ(within[3], "landmark L4") << way.x << " " << way.y << " " << way.z;
     EXPECT_EQ(within.back(), "done");
     EXPECT_EQ(wires, 4U);
     EXPECT_EQ(

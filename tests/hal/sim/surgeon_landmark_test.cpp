@@ -26,7 +26,7 @@ TEST(LandmarkSurgeon, TouchesTheSamePlaceBeforeEveryScrew) {
   EngineOptions options;
   options.landmark = true;
   ErrorModel seated = ErrorModel::perfect();
-  seated.dimple_seating_m = 0.0002;
+  seated.landmark_seating_m = 0.0002;
   for (const bool perfect : {true, false}) {
     const Performed done = performed(options, perfect ? ErrorModel::perfect() : seated);
     ASSERT_EQ(done.history.back(), "done");
@@ -50,8 +50,8 @@ TEST(LandmarkSurgeon, ChecksOnceAndRejectsTheSecondTime) {
   const Performed slipped = performed(once);
   ASSERT_EQ(slipped.history.back(), "done");
   const std::vector<std::string> begin(slipped.history.begin(), slipped.history.begin() + 8);
-  EXPECT_THAT(begin, ElementsAre("setup", "digitize L4", "verify L4", "accepted L4",
-                                 "guide L4 left", "accepted L4", "verify L4", "accepted L4"));
+  EXPECT_THAT(begin, ElementsAre("setup", "digitize L4", "verify L4", "landmark L4",
+                                 "guide L4 left", "landmark L4", "verify L4", "landmark L4"));
   once.landmark_moves = 2;
   const Performed moved = performed(once);
   ASSERT_GT(moved.history.size(), 9U);

@@ -40,8 +40,8 @@ TEST(Surgeon, OperatesTwoLevelsFromSetupToRod) {
   FakeEngine engine(**headset, test_case);
   EXPECT_GT(engine.run(), 0);
   EXPECT_THAT(engine.history(),
-              ElementsAre("setup", "digitize L4", "verify L4", "accepted L4", "guide L4 left",
-                          "guide L4 right", "digitize L5", "verify L5", "accepted L5",
+              ElementsAre("setup", "digitize L4", "verify L4", "landmark L4", "guide L4 left",
+                          "guide L4 right", "digitize L5", "verify L5", "landmark L5",
                           "guide L5 left", "guide L5 right", "rod left", "rod right", "done"));
   EXPECT_EQ((*headset)->truth().wires.size(), 4U);
   EXPECT_EQ((*headset)->truth().heads.size(), 4U);

@@ -57,7 +57,7 @@ TEST(TranslatedHolograms, SayNothingInEnglishInAWholeOperation) {
   expect_translated(builder, touched.registers_first_level());
   expect_translated(builder, touched.checks_by_touch());
   expect_translated(builder, touched.accepts());
-  expect_translated(builder, touched.touches_dimple());
+  expect_translated(builder, touched.touches_landmark());
   ScriptedOperation guiding;
   expect_translated(builder, guiding.accepts_first_level());
   guiding.tracker().guide = guide_at({0.017, 0.021, 0.0}, 0.05);

@@ -19,7 +19,7 @@ key 1
 screenshot verify-without-path.png
 key 1
 key p
-until accepted L5
+until landmark L5
 first guide L5 left
 screenshot guide.png
 key 4

@@ -17,11 +17,11 @@ namespace orthonav::engine {
 
 /// The state that the steps of one operation share. Each step receives it and changes it by its
 /// actions; state of a single step is kept in that step.
-struct OperationInWork {
-  OperationInWork(Operation operation, WatchedTools watched, Method with,
-                  const SessionOptions& session_options);
-  OperationInWork(const OperationInWork&) = delete;
-  OperationInWork& operator=(const OperationInWork&) = delete;
+struct SessionState {
+  SessionState(Operation operation, WatchedTools watched, Method with,
+               const SessionOptions& session_options);
+  SessionState(const SessionState&) = delete;
+  SessionState& operator=(const SessionState&) = delete;
 
   /// Not where rods alone are bent.
   [[nodiscard]] LevelState& level() { return state.levels[level_in_work]; }
@@ -52,6 +52,6 @@ struct OperationInWork {
 void add_tip(Touch& touch, const WatchedTools& tools, std::size_t tool);
 
 /// Where the pointer's tip rested; ends the touch.
-[[nodiscard]] TouchedPlace take_place(OperationInWork& work, Timestamp time);
+[[nodiscard]] TouchedPlace take_place(SessionState& work, Timestamp time);
 
 }  // namespace orthonav::engine

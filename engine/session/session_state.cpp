@@ -1,11 +1,11 @@
-#include "engine/session/operation_in_work.h"
+#include "engine/session/session_state.h"
 
 #include <utility>
 
 namespace orthonav::engine {
 
-OperationInWork::OperationInWork(Operation operation, WatchedTools watched, Method with,
-                                 const SessionOptions& session_options)
+SessionState::SessionState(Operation operation, WatchedTools watched, Method with,
+                           const SessionOptions& session_options)
     : options(session_options),
       method(std::move(with)),
       tools(std::move(watched)),
@@ -24,7 +24,7 @@ void add_tip(Touch& touch, const WatchedTools& tools, std::size_t tool) {
   }
 }
 
-TouchedPlace take_place(OperationInWork& work, Timestamp time) {
+TouchedPlace take_place(SessionState& work, Timestamp time) {
   return work.touches.pointer.take_place(work.tools.pointer_tip(time, work.options.stale_after),
                                          work.options.max_touch_spread_m);
 }
