@@ -1,10 +1,10 @@
 #include "engine/holograms/scene_builder.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/translation.h"
 #include "engine/holograms/anchored_frame.h"
-#include "engine/holograms/next_act.h"
 #include "engine/holograms/shapes/hologram_colours.h"
 #include "engine/holograms/shapes/hologram_label.h"
 #include "engine/holograms/shapes/hologram_numbers.h"
@@ -13,6 +13,7 @@
 #include "engine/holograms/shapes/screw_holograms.h"
 #include "engine/session/tools_in_hand.h"
 #include "nav/published/stroke_pattern.h"
+#include "render/shapes.h"
 
 namespace orthonav::engine {
 namespace {
@@ -92,6 +93,28 @@ void write_notice_alone(const render::Scene& scene, std::string_view why, render
 void SceneBuilder::update(const Guidance& guidance, Timestamp display_time) {
   decide_visibility(guidance, rules_, display_time, visible_);
   hang_cross(guidance, display_time);
+}
+
+/// Hangs H7 beside the place that the eyes rest on.
+void SceneBuilder::hang_cross(const Guidance& guidance, Timestamp display_time) {
+  if (!visible_.cross || !visible_.trajectory) {
+    return;
+  }
+  const PlacedScrew& screw = *visible_.trajectory;
+  if (const std::pair of(screw.at.level, screw.screw); hung_for_ != of) {
+    hung_for_ = of;
+    gaze_anchor_.reset();
+  }
+  std::optional<Gaze> gaze = gaze_;
+  if (gaze && guidance.anchor) {
+    const auto anchored_from_world = guidance.anchor->world_from_anchored.inverse();
+    gaze->origin = anchored_from_world * gaze->origin;
+    gaze->direction = anchored_from_world * gaze->direction;
+  }
+  VisibleCross& cross = *visible_.cross;
+  cross.aside = gaze_anchor_.follow({site_of(screw.at), screw.at.world_from_vertebra,
+                                     cross.world_from_head, cross.side, visible_.entries_of},
+                                    gaze, display_time);
 }
 
 void SceneBuilder::write_shown(const Guidance& guidance, ShownFrame& frame) {
@@ -204,6 +227,31 @@ void SceneBuilder::add_stroke_pattern(const Guidance& guidance, render::Scene& s
       points_.push_back(to_float3(kScale * (rotation * place) + shift));
     }
     add_line(scene, points_, kWidth_m, look::kWhite, kLabel);
+  }
+}
+
+void SceneBuilder::add_bone(const PlacedLevel& at, std::span<const float> unstroked,
+                            render::Scene& scene) {
+  add_vertebra(scene, tinted_surface_of(*at.level, unstroked),
+               to_matrix(at.world_from_vertebra.row_major()), label_of(HologramKind::kVertebra, 1));
+}
+
+void SceneBuilder::add_check_points(const PlacedLevel& at, std::span<const Point<World>> to_check,
+                                    render::Scene& scene) {
+  std::size_t k = 0;
+  if (!to_check.empty()) {
+    add_place_to_check(scene, to_float3(to_check.front().v),
+                       label_of(HologramKind::kCheckPoint, ++k));
+  }
+  const std::vector<nav::CheckPoint>& touched = at.level->check_points;
+  for (const nav::CheckPoint& point : touched) {
+    const render::Label label = label_of(HologramKind::kCheckPoint, ++k);
+    const render::Float3 place = to_float3(point.place.v);
+    if (&point != &touched.back()) {
+      add_earlier_check_point(scene, place, point.within, label);
+    } else {
+      add_check_point(scene, place, distance_text(point.distance_m), point.within, label);
+    }
   }
 }
 
@@ -389,6 +437,52 @@ void SceneBuilder::add_status(const Guidance& guidance, render::Scene& scene) {
     append_drill(text_, visible_.drill);
     add_stop_row(scene, text_, kStop);
   }
+}
+
+// The meshes that a scene shares from frame to frame.
+
+const std::shared_ptr<const render::MeshData>& SceneBuilder::surface_of(const LevelState& level) {
+  auto& surface = surfaces_[level.plan.model.get()];
+  if (!surface) {
+    surface = mesh_data(level.plan.model->mesh());
+  }
+  return surface;
+}
+
+const std::shared_ptr<const render::MeshData>& SceneBuilder::tinted_surface_of(
+    const LevelState& level, std::span<const float> tints) {
+  const auto& surface = surface_of(level);
+  if (tints.size() != surface->positions.size()) {
+    return surface;
+  }
+  const bool known = tinted_from_ == surface.get() &&
+                     std::equal(tints.begin(), tints.end(), tinted_->tints.begin());
+  if (!known) {
+    auto tinted = std::make_shared<render::MeshData>(*surface);
+    tinted->tints.assign(tints.begin(), tints.end());
+    tinted_ = std::move(tinted);
+    tinted_from_ = surface.get();
+  }
+  return tinted_;
+}
+
+const std::shared_ptr<const render::MeshData>& SceneBuilder::tube_of(std::size_t i,
+                                                                     const RodState& rod) {
+  Tube& tube = tubes_[i];
+  if (tube.points == rod.heads) {
+    return tube.mesh;
+  }
+  tube.points = rod.heads;
+  tube.mesh.reset();
+  if (rod.rod) {
+    std::vector<render::Float3> path;
+    for (const Vec3 p : rod.rod->path_m) {
+      path.push_back(to_float3(p));
+    }
+    tube.mesh = std::make_shared<render::MeshData>(
+        render::make_tube(path, static_cast<float>(rod.rod->diameter_m / 2.0)));
+  }
+  return tube.mesh;
 }
 
 }  // namespace orthonav::engine

@@ -4,7 +4,6 @@
 #include <array>
 
 #include "base/translation.h"
-#include "engine/holograms/next_act.h"
 #include "engine/holograms/shapes/hologram_shapes.h"
 #include "engine/holograms/shapes/render_values.h"
 #include "engine/holograms/shapes/screw_holograms.h"
