@@ -31,11 +31,7 @@ std::optional<PlacedLevel> usable(const LevelState& level) {
 
 /// H4 depends on the registration alone, so it stays when the tool is lost.
 std::optional<PlacedScrew> selected_screw(const Guidance& g) {
-  const bool at_screw = g.step == Step::kGuide || g.step == Step::kMeasureWire;
-  if (!at_screw || g.level >= g.levels.size()) {
-    return std::nullopt;
-  }
-  const auto level = usable(g.levels[g.level]);
+  const auto level = g.level < g.levels.size() ? usable(g.levels[g.level]) : std::nullopt;
   if (!level || g.screw >= level->level->plan.screws.size()) {
     return std::nullopt;
   }
@@ -91,10 +87,15 @@ double from_screw_m(const nav::ScrewGuidance& tool) {
   return std::hypot(tool.tip_off_axis_m, along_m);
 }
 
-/// H5, H6, H9, H13: on a pose younger than the limit at the display time. A frozen triangle is
-/// worse than none. `fresh` is null where there is no such pose.
-void decide_tool(const Guidance& g, const ToolGuidance* fresh, const VisibilityRules& rules,
-                 Visibility& out) {
+/// Step `guide`: what tells the tool from the plan, on a pose younger than the limit at the display
+/// time. A frozen triangle is worse than none.
+void decide_guide(const Guidance& g, const VisibilityRules& rules, Timestamp display_time,
+                  Visibility& out) {
+  const ToolGuidance* fresh =
+      g.tool && display_time - g.tool->pose_time <= g.stale_after ? &*g.tool : nullptr;
+  // A frame shown so late that its pose is too old is as unwatched as a pair without one.
+  out.drill = fresh ? g.drill : g.drill.unwatched();
+  // H5, H6, H9, H13.
   if (fresh) {
     const nav::ScrewGuidance* measured = fresh->measured ? &*fresh->measured : nullptr;
     const nav::ScrewGuidance& where = measured ? *measured : fresh->shown;
@@ -116,30 +117,19 @@ void decide_tool(const Guidance& g, const ToolGuidance* fresh, const VisibilityR
   }
   // A lost value is shown as lost in place of the number, never as the last or a predicted number.
   out.angle_lost = !out.measurement && (out.triangle || !fresh);
-}
-
-/// H7: while the tool is at the screw, or is lost, once it is known where the eyes are. Its dots
-/// are numbers in another shape: they come from one stereo pair, never from a prediction.
-void decide_cross(const PlacedScrew& screw, const Transform<World, Rig>& head,
-                  const ToolGuidance* fresh, Visibility& out) {
-  VisibleCross cross;
-  cross.world_from_head = head;
-  cross.side = out.cross_side = clear_side_of(screw, head, out.cross_side);
-  cross.lost = !fresh;
-  cross.dots = out.measurement;
-  if (out.triangle || cross.lost) {
-    out.cross = cross;
-  }
-}
-
-/// H3: entry points of everything that may be guided on, never faded by distance. An unaccepted
-/// registration shows none: an entry point on display reads as "drill here".
-void decide_entries(const Guidance& g, Visibility& out) {
-  for (const LevelState& level : g.levels) {
-    if (const auto there = usable(level)) {
-      out.entries_of.push_back(*there);
+  // The status line says which screw it is; on the way there its name stands at its entry.
+  out.entry_labels = out.approach.has_value() || !rules.cross_and_depth;
+  out.only_selected_named = rules.cross_and_depth;
+  // H7: while the tool is at the screw, or is lost, once it is known where the eyes are. Its dots
+  // are numbers in another shape: they come from one stereo pair, never from a prediction.
+  if (g.head && rules.cross_and_depth) {
+    out.cross_side = clear_side_of(*out.trajectory, *g.head, out.cross_side);
+    if (out.triangle || !fresh) {
+      out.cross = VisibleCross{*g.head, out.cross_side, out.measurement, !fresh, std::nullopt};
     }
   }
+  // H8: only where the surgeon asked for it, since it takes their eyes off the patient.
+  out.twin = g.twin;
 }
 
 }  // namespace
@@ -155,53 +145,66 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   if (g.blank || (g.anchor != nullptr && g.anchor->stale(display_time, g.stale_after))) {
     return;
   }
-  // H1: the surgeon still compares the paths with the hologram while verifying; after acceptance
-  // they would only cover the bone.
-  out.paths = g.step == Step::kDigitize || g.step == Step::kRegistering || g.step == Step::kVerify;
-  out.stroke_pattern =
-      rules.stroke_pattern && g.step == Step::kDigitize && g.head && g.level < g.levels.size();
-  // H2, H12: only the level that is to be verified; gone with a rejected registration.
-  if (g.step == Step::kVerify && g.level < g.levels.size()) {
-    out.vertebra = placed(g.levels[g.level]);
+  const LevelState* level = g.level < g.levels.size() ? &g.levels[g.level] : nullptr;
+  if (g.step != Step::kDone) {
+    out.level = level;
   }
-  // H3: once every screw is in, the rod takes its place until the end.
+  // H3: entry points of everything that may be guided on, never faded by distance, until the rod
+  // takes their place. An unaccepted registration shows none: an entry point on display reads as
+  // "drill here".
   if (g.step != Step::kRod) {
-    decide_entries(g, out);
-  }
-  if (g.step != Step::kDone && g.level < g.levels.size()) {
-    out.level = &g.levels[g.level];
-  }
-  out.entry_labels = g.step == Step::kTouchLandmark || g.step == Step::kDone;
-  if (const auto* strokes = std::get_if<StrokesSoFar>(&g.status.state);
-      strokes != nullptr && strokes->coaching != nullptr && !strokes->coaching->enough) {
-    out.stroke_next = strokes->coaching->stroke_at;
-  }
-  if (g.step == Step::kTouchLandmark && g.level < g.levels.size()) {
-    const LevelState& level = g.levels[g.level];
-    if (const auto there = usable(level); there && level.landmark) {
-      out.landmark = there->world_from_vertebra * level.landmark->in_vertebra;
+    for (const LevelState& each : g.levels) {
+      if (const auto there = usable(each)) {
+        out.entries_of.push_back(*there);
+      }
     }
   }
-  out.trajectory = selected_screw(g);
-  // The measurement of a wire in the bone is as old as its registration, not as a pose.
-  out.wire = out.trajectory && g.step == Step::kMeasureWire ? g.wire : nullptr;
-  if (out.trajectory && g.step == Step::kGuide) {
-    const bool fresh = g.tool && display_time - g.tool->pose_time <= g.stale_after;
-    const ToolGuidance* tool = fresh ? &*g.tool : nullptr;
-    // H13: a frame shown so late that its pose is too old is as unwatched as a pair without one.
-    out.drill = tool ? g.drill : g.drill.unwatched();
-    decide_tool(g, tool, rules, out);
-    // The status line says which screw it is; on the way there its name stands at its entry.
-    out.entry_labels = out.approach.has_value() || !rules.cross_and_depth;
-    out.only_selected_named = rules.cross_and_depth;
-    if (g.head && rules.cross_and_depth) {
-      decide_cross(*out.trajectory, *g.head, tool, out);
-    }
-    // H8: only where the surgeon asked for it, since it takes their eyes off the patient.
-    out.twin = g.twin;
+  switch (g.step) {
+    case Step::kSetup:
+      break;
+    case Step::kDigitize:
+      out.paths = true;
+      out.stroke_pattern = rules.stroke_pattern && g.head && level != nullptr;
+      if (const auto* strokes = std::get_if<StrokesSoFar>(&g.status.state);
+          strokes != nullptr && strokes->coaching != nullptr && !strokes->coaching->enough) {
+        out.stroke_next = strokes->coaching->stroke_at;
+      }
+      break;
+    case Step::kRegistering:
+      out.paths = true;
+      break;
+    case Step::kVerify:
+      // H1: the surgeon still compares the paths with the hologram; after acceptance they would
+      // only cover the bone.
+      out.paths = true;
+      // H2, H12: only the level that is to be verified; gone with a rejected registration.
+      out.vertebra = level != nullptr ? placed(*level) : std::nullopt;
+      break;
+    case Step::kTouchLandmark:
+      out.entry_labels = true;
+      if (level != nullptr && level->usable() && level->landmark) {
+        out.landmark = level->registration->world_from_vertebra * level->landmark->in_vertebra;
+      }
+      break;
+    case Step::kGuide:
+      out.trajectory = selected_screw(g);
+      if (out.trajectory) {
+        decide_guide(g, rules, display_time, out);
+      }
+      break;
+    case Step::kMeasureWire:
+      out.trajectory = selected_screw(g);
+      // The measurement of a wire in the bone is as old as its registration, not as a pose.
+      out.wire = out.trajectory ? g.wire : nullptr;
+      break;
+    case Step::kRod:
+      out.rods = true;
+      break;
+    case Step::kDone:
+      out.entry_labels = true;
+      out.rods = true;
+      break;
   }
-  // H10: from the first head until the end.
-  out.rods = g.step == Step::kRod || g.step == Step::kDone;
 }
 
 // The words of step `guide`.
