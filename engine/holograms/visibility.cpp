@@ -14,7 +14,7 @@ namespace orthonav::engine {
 
 namespace {
 
-/// The tool is at the screw: its tip is this near to the planned one, between entry and target.
+/// A tool at the screw has its tip this near to the planned one, between entry and target.
 constexpr double kAtScrew_m = 0.040;
 
 std::optional<PlacedLevel> placed(const LevelState& level) {
@@ -79,12 +79,17 @@ ToolVerdict judged(const Visibility& visible, const nav::DrillView& drill,
   return verdict;
 }
 
-/// Of the tip from the planned screw, anywhere between entry and target.
-double from_screw_m(const nav::ScrewGuidance& tool) {
+/// Whether the guide is set, or about to be; before that it is on its way to the entry. As
+/// published, only its distance from the screw counts. A drill that runs off the axis keeps its
+/// alarm.
+bool at_screw(const nav::ScrewGuidance& tool, const nav::DrillView& drill,
+              const VisibilityRules& rules) {
   const double along_m = tool.depth_m < 0.0       ? -tool.depth_m
                          : tool.to_target_m < 0.0 ? -tool.to_target_m
                                                   : 0.0;
-  return std::hypot(tool.tip_off_axis_m, along_m);
+  const bool beside = tool.tip_off_axis_m > kOffTheScrew_m && rules.cross_and_depth &&
+                      drill.phase != nav::DrillPhase::kDrilling;
+  return std::hypot(tool.tip_off_axis_m, along_m) <= kAtScrew_m && !beside;
 }
 
 /// Step `guide`: what tells the tool from the plan, on a pose younger than the limit at the display
@@ -99,7 +104,7 @@ void decide_guide(const Guidance& g, const VisibilityRules& rules, Timestamp dis
   if (fresh) {
     const nav::ScrewGuidance* measured = fresh->measured ? &*fresh->measured : nullptr;
     const nav::ScrewGuidance& where = measured ? *measured : fresh->shown;
-    if (from_screw_m(where) <= kAtScrew_m) {
+    if (at_screw(where, out.drill, rules)) {
       out.triangle = &fresh->shown;
       out.measurement = measured;
       if (rules.cross_and_depth) {

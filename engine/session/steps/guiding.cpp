@@ -20,9 +20,6 @@ namespace {
 
 /// Withdrawn by more than this, the tool is no longer at depth; a hand at rest moves less.
 constexpr double kWithdrawn_m = 0.001;
-/// A tip farther off the planned axis is not at the screw. Depth along the axis alone would include
-/// a tool laid down beside the patient.
-constexpr double kOffTheScrew_m = 0.015;
 /// A tool tilted farther from the plan is not aimed at it: 30°.
 constexpr double kAway_rad = 0.52;
 

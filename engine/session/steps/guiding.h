@@ -18,6 +18,10 @@ namespace orthonav::engine {
 class GuideChecks;
 class Placing;
 
+/// A tip farther off the planned axis is not at the screw. Depth along the axis alone would include
+/// a tool laid down beside the patient.
+inline constexpr double kOffTheScrew_m = 0.015;
+
 /// The step in which screws are guided.
 class Guiding {
  public:

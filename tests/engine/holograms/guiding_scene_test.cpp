@@ -153,6 +153,29 @@ TEST_F(Guiding, AwayFromTheScrewShowsTheDistanceAtTheTipAlone) {
   EXPECT_EQ(far.status->text, "guide L4 left | tip to the entry");
 }
 
+TEST_F(Guiding, ATipBesideTheScrewIsOnItsWayHoweverDeepItIs) {
+  for (const double beside_m : {0.0151, 0.032}) {
+    // Below the plane of the entry, as beside a slope of the bone.
+    s.tracker().guide = guide_at(kLeftEntry + Vec3{beside_m, -0.004, 0}, 0.0);
+    const Guidance& g = s.pairs(2);
+    EXPECT_THAT(drawn(g), ::testing::ElementsAre(kEntry, kTrajectory, kDepth, kStatus, kNumbers));
+    EXPECT_EQ(drawn(g), told(g));
+    EXPECT_EQ(shown(g).status->text, "guide L4 left | tip to the entry");
+  }
+  s.tracker().guide = guide_at(kLeftEntry + Vec3{0.0149, -0.004, 0}, 0.0);
+  EXPECT_NE(find(shown(s.pairs(2)), kCross), nullptr) << "the control";
+}
+
+TEST_F(Guiding, ADrillThatRunsOffTheAxisKeepsTheCross) {
+  s.tracker().guide = guide_at(kLeftEntry - Vec3{0, 0.004, 0}, 0.0);
+  s.pairs(2);
+  s.says("drill");
+  s.tracker().guide = guide_at(kLeftEntry + Vec3{0.020, -0.008, 0}, 0.0);
+  const Guidance& g = s.pairs(2);
+  ASSERT_EQ(g.drill.phase, nav::DrillPhase::kDrilling);
+  EXPECT_NE(find(shown(g), kCross), nullptr);
+}
+
 TEST_F(Guiding, KeepsTheCrossDownToTheTarget) {
   // The tip 39 mm deep and more than 40 from the entry: 3 mm past the target, beside the axis.
   s.tracker().guide = guide_at(kLeftEntry + Vec3{0.009, -0.0395, 0}, 0.0);
