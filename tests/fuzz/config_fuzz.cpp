@@ -1,5 +1,5 @@
 #include "tests/fuzz/input_file.h"
-#include "tools/config_file.h"
+#include "tools/orthonav/config/config_file.h"
 
 namespace orthonav::fuzz {
 

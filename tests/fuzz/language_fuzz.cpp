@@ -1,5 +1,5 @@
 #include "tests/fuzz/input_file.h"
-#include "tools/language_file.h"
+#include "tools/orthonav/language/language_file.h"
 
 namespace orthonav::fuzz {
 

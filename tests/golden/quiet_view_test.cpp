@@ -25,7 +25,7 @@
 #include "render/frame/frame_items.h"
 #include "render/text/font.h"
 #include "tests/support/language_in_use.h"
-#include "tools/language_file.h"
+#include "tools/orthonav/language/language_file.h"
 
 namespace orthonav::engine {
 namespace {

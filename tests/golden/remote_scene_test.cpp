@@ -18,7 +18,7 @@
 #include "tests/golden/golden_scene_edit.h"
 #include "tests/support/is_ok.h"
 #include "tests/support/temporary_folder.h"
-#include "tools/scene_drawing.h"
+#include "tools/orthonav/serve_hl2ss/scene_drawing.h"
 
 namespace orthonav::engine {
 namespace {

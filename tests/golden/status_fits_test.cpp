@@ -15,7 +15,7 @@
 #include "render/projection.h"
 #include "tests/golden/expected_box.h"
 #include "tests/support/language_in_use.h"
-#include "tools/language_file.h"
+#include "tools/orthonav/language/language_file.h"
 
 namespace orthonav::engine {
 namespace {

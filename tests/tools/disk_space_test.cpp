@@ -1,4 +1,4 @@
-#include "tools/disk_space.h"
+#include "tools/orthonav/shared/disk_space.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,10 +10,10 @@
 #include <sstream>
 
 #include "tests/tools/command_line.h"
-#include "tools/command_page.h"
-#include "tools/did_you_mean.h"
-#include "tools/help_text.h"
-#include "tools/manual_page.h"
+#include "tools/orthonav/command_page.h"
+#include "tools/orthonav/config/did_you_mean.h"
+#include "tools/orthonav/help_text.h"
+#include "tools/orthonav/manual/manual_page.h"
 
 namespace orthonav::test::help_test {
 namespace {

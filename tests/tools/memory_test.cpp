@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "tests/support/wait_until.h"
-#include "tools/memory_reserve.h"
-#include "tools/stop_signals.h"
+#include "tools/orthonav/shared/memory_reserve.h"
+#include "tools/orthonav/shared/stop_signals.h"
 
 namespace orthonav::tools::memory_test {
 namespace {

@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
-#include "tools/operation_estimate.h"
-#include "tools/progress_bar.h"
+#include "tools/orthonav/operation/operation_estimate.h"
+#include "tools/orthonav/shared/progress_bar.h"
 
 namespace orthonav::tools {
 namespace {

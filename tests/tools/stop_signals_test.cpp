@@ -10,7 +10,7 @@
 #include "engine/session/log/logged_operation.h"
 #include "tests/support/wait_until.h"
 #include "tests/tools/command_line.h"
-#include "tools/stop_signals.h"
+#include "tools/orthonav/shared/stop_signals.h"
 
 namespace orthonav::tools {
 namespace {

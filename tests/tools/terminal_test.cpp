@@ -9,8 +9,8 @@
 
 #include "tests/support/wait_until.h"
 #include "tests/tools/full_pipe.h"
-#include "tools/stop_signals.h"
-#include "tools/unblocked_output.h"
+#include "tools/orthonav/shared/stop_signals.h"
+#include "tools/orthonav/shared/unblocked_output.h"
 
 namespace orthonav::tools::terminal_test {
 namespace {

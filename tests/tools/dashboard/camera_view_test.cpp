@@ -1,4 +1,4 @@
-#include "tools/camera_view.h"
+#include "tools/orthonav/dashboard/camera_view.h"
 
 #include <gmock/gmock.h>
 

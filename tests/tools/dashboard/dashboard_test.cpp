@@ -1,4 +1,4 @@
-#include "tools/dashboard.h"
+#include "tools/orthonav/dashboard/dashboard.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 #include "tests/support/scripted_operation.h"
 #include "tests/support/tag_scene.h"
 #include "tests/support/temporary_folder.h"
-#include "tools/dashboard_state.h"
+#include "tools/orthonav/dashboard/dashboard_state.h"
 
 namespace orthonav::tools::dashboard_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/status_changes.h"
+#include "tools/orthonav/dashboard/status_changes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tools/web_access.h"
+#include "tools/orthonav/dashboard/web_access.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "tools/igtl_messages.h"
+#include "tools/orthonav/igtl/igtl_messages.h"
 
 #include <gtest/gtest.h>
 

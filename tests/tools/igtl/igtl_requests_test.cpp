@@ -1,4 +1,4 @@
-#include "tools/igtl_requests.h"
+#include "tools/orthonav/igtl/igtl_requests.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
-#include "tools/language_file.h"
+#include "tools/orthonav/language/language_file.h"
 
 #include <gmock/gmock.h>
 
 #include "tests/support/temporary_folder.h"
-#include "tools/language_check.h"
+#include "tools/orthonav/language/language_check.h"
 
 namespace orthonav::tools::language_file_test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/translation.h"
 #include "tests/support/language_in_use.h"
-#include "tools/language_file.h"
+#include "tools/orthonav/language/language_file.h"
 
 namespace orthonav::test {
 

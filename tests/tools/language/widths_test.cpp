@@ -6,7 +6,7 @@
 #include "engine/session/steps/guiding.h"
 #include "engine/session/text/wording.h"
 #include "tests/support/language_in_use.h"
-#include "tools/language_file.h"
+#include "tools/orthonav/language/language_file.h"
 
 namespace orthonav::engine::language_widths_test {
 namespace {

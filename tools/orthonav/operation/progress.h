@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/stopwatch.h"
+#include "engine/live/frame_loop.h"
+#include "tools/orthonav/operation/operation_estimate.h"
+#include "tools/orthonav/shared/progress_bar.h"
+
+namespace orthonav::tools {
+
+/// Progress of an operation (ProgressBar); each step of the workflow is shown at once.
+class OperationProgress : public engine::LoopObserver {
+ public:
+  /// Also forwards everything to `next`, which is borrowed and may be null.
+  explicit OperationProgress(engine::LoopObserver* next) : next_(next) {}
+  void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
+               const engine::Guidance& guidance) override;
+  void captured(const engine::Snapshot& snapshot) override;
+  void withdrawn(const engine::Guidance& guidance) override;
+  void cameras_failed(const std::string& why) override;
+  void input_failed(const std::string& why) override;
+  /// The operation has ended: its line is cleared.
+  void end() {
+    bar_.end();
+    tell_untold();
+  }
+
+ private:
+  /// One that repeats is printed once, then how often it came.
+  void warn(const std::string& why);
+  void tell_untold();
+
+  engine::LoopObserver* next_;
+  ProgressBar bar_;
+  OperationEstimate estimate_;
+  std::optional<StepOnDisplay> step_;
+  std::optional<Stopwatch> cameras_warned_;
+  std::string warned_;
+  int untold_ = 0;
+};
+
+}  // namespace orthonav::tools
