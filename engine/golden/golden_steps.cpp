@@ -167,6 +167,8 @@ void add_step_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(accepted());
   scenes.push_back(guide("guide_far", "plan, its entry's name, the distance at the tip",
                          guided(12.0, 0.030, -0.055), kAway));
+  scenes.push_back(guide("guide_aside", "the same 32 mm beside the entry and deeper: no cross",
+                         guided(12.0, 0.032, 0.004), kAway));
   scenes.push_back(guidance_scene());
   scenes.push_back(guide("guide_set", "within limits: green, three numbers, drill",
                          guided(0.8, 0.0004, 0.0002), kSet));

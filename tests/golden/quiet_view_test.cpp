@@ -91,7 +91,7 @@ void expect_quiet(const render::Scene& scene, const std::string& name) {
 TEST(QuietView, HasFourNumbersAndEightWordsAtMostInEveryStepWithinLimits) {
   for (const char* name :
        {"setup", "digitizing", "verify", "verify_checked", "verify_many", "accepted", "guide_far",
-        "guide_set", "guide_drilling", "placed", "h10_rod", "done"}) {
+        "guide_aside", "guide_set", "guide_drilling", "placed", "h10_rod", "done"}) {
     expect_quiet(scene_named(name).scene, name);
   }
   for (const char* name : {"guide_numbers", "h10_rod_moved"}) {
@@ -174,8 +174,8 @@ TEST(QuietView, HasNoMoreInGerman) {
 
 TEST(QuietView, HasAsMuchToReadAsTheTableSays) {
   for (const char* name : {"setup", "digitizing", "verify", "verify_checked", "accepted",
-                           "guide_far", "guidance", "guide_set", "guide_drilling", "guide_stop",
-                           "guide_numbers", "placed", "h10_rod", "done"}) {
+                           "guide_far", "guide_aside", "guidance", "guide_set", "guide_drilling",
+                           "guide_stop", "guide_numbers", "placed", "h10_rod", "done"}) {
     const Reading reading = to_read(scene_named(name).scene);
     const std::string row =
         printed("| scene `%s` | %d | %d |", name, reading.numbers, reading.words);
