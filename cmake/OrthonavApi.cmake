@@ -30,7 +30,8 @@ set(DOXYGEN_SEARCHENGINE NO)
 set(DOXYGEN_HTML_DYNAMIC_MENUS NO)
 set(DOXYGEN_HTML_TIMESTAMP NO)
 set(DOXYGEN_VERBATIM_HEADERS NO)
-doxygen_add_docs(api ALL ${ORTHONAV_HEADERS} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" USE_STAMP_FILE
+get_property(orthonav_headers GLOBAL PROPERTY ORTHONAV_HEADERS)
+doxygen_add_docs(api ALL ${orthonav_headers} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" USE_STAMP_FILE
                  COMMENT "Writing the pages of the headers")
 if(ORTHONAV_BUILD_TESTS)
   add_test(NAME api.PagesAreWrittenWithoutWarnings

@@ -6,22 +6,31 @@ get_property(orthonav_libraries GLOBAL PROPERTY ORTHONAV_LIBRARIES)
 set(orthonav_package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/orthonav")
 
 install(TARGETS ${orthonav_libraries} EXPORT orthonavTargets
-        ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
+        ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev
+        FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/orthonav" COMPONENT dev)
 install(EXPORT orthonavTargets NAMESPACE orthonav:: DESTINATION "${orthonav_package_folder}" COMPONENT dev)
-# Headers but those of libraries that are not installed, and those by which a library is made. Of the study, the
-# simulated room of a case alone is installed.
-file(GLOB_RECURSE ORTHONAV_HEADERS CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}"
-     base/*.h hal/*.h nav/*.h render/*.h engine/*.h)
-list(FILTER ORTHONAV_HEADERS EXCLUDE REGEX
-     "^(render/(font_maker|vulkan)|engine/(golden|scan|evaluation)|hal/igtl)/")
-list(APPEND ORTHONAV_HEADERS study/set_up.h study/sim_scenario.h)
-if(ORTHONAV_HEADSET)
-  list(FILTER ORTHONAV_HEADERS EXCLUDE REGEX "^(engine/(planning|print)|hal/(hl2ss|desktop|voice|open))/")
-endif()
-foreach(header IN LISTS ORTHONAV_HEADERS)
-  get_filename_component(room "${header}" DIRECTORY)
-  install(FILES "${PROJECT_SOURCE_DIR}/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/orthonav/${room}"
-          COMPONENT dev)
+# What each library links, that of others of ours included: a program that names its components needs no more.
+function(orthonav_links target out)
+  get_target_property(direct ${target} INTERFACE_LINK_LIBRARIES)
+  set(links "")
+  foreach(link IN LISTS direct)
+    string(REGEX REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1" link "${link}")
+    if(link MATCHES "^orthonav::")
+      orthonav_links(${link} link)
+    endif()
+    list(APPEND links ${link})
+  endforeach()
+  list(REMOVE_DUPLICATES links)
+  list(FILTER links EXCLUDE REGEX "-NOTFOUND$")
+  set(${out} "${links}" PARENT_SCOPE)
+endfunction()
+set(orthonav_components "")
+set(orthonav_links_of_components "")
+foreach(library IN LISTS orthonav_libraries)
+  orthonav_links(${library} links)
+  string(REGEX REPLACE "^orthonav_" "" component "${library}")
+  list(APPEND orthonav_components ${component})
+  string(APPEND orthonav_links_of_components "set(orthonav_links_of_${component} ${links})\n")
 endforeach()
 # The contract tests of devices, for those who write a device outside this tree.
 set(orthonav_contract_folder "${CMAKE_INSTALL_DATADIR}/orthonav/contract")

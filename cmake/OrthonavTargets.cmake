@@ -1,13 +1,15 @@
 # Users write <orthonav/nav/...>; the headers themselves name each other as here, "nav/...", for which the
 # folder orthonav is on the path as well.
 #
-# orthonav_library(NAME [NOT_INSTALLED] [COLD] [SOURCES_IN folders... | FILES files...] [EXCEPT files...])
+# orthonav_library(NAME [NOT_INSTALLED] [COLD] [SOURCES_IN folders... | FILES files...] [EXCEPT files...]
+#                  [INTERNAL folders...])
 # makes the static library orthonav_NAME, alias orthonav::NAME, of every .cpp directly in the calling
-# folder, in the folders SOURCES_IN, or of FILES; without the files named after EXCEPT. COLD: its
+# folder, in the folders SOURCES_IN, or of FILES; without the files named after EXCEPT. The headers
+# beside them are installed with it, but those in the folders INTERNAL, by which it is made. COLD: its
 # speed does not matter, so it is optimized less and compiles faster; the results are the same to
 # the bit.
 function(orthonav_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "NOT_INSTALLED;COLD" "" "SOURCES_IN;FILES;EXCEPT")
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "NOT_INSTALLED;COLD" "" "SOURCES_IN;FILES;EXCEPT;INTERNAL")
   if(NOT ARG_SOURCES_IN AND NOT ARG_FILES)
     set(ARG_SOURCES_IN ".")
   endif()
@@ -16,8 +18,23 @@ function(orthonav_library name)
     file(GLOB found CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp")
     list(APPEND sources ${found})
   endforeach()
+  set(headers "")
+  foreach(file IN LISTS ARG_FILES)
+    string(REGEX REPLACE "cpp$" "h" header "${CMAKE_CURRENT_SOURCE_DIR}/${file}")
+    if(EXISTS "${header}")
+      list(APPEND headers "${header}")
+    endif()
+  endforeach()
+  list(REMOVE_ITEM ARG_SOURCES_IN ${ARG_INTERNAL})
+  foreach(folder IN LISTS ARG_SOURCES_IN)
+    file(GLOB found CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.h")
+    list(APPEND headers ${found})
+  endforeach()
+  list(TRANSFORM headers REPLACE "/[.]/" "/")
   foreach(file IN LISTS ARG_EXCEPT)
     list(FILTER sources EXCLUDE REGEX "/${file}$")
+    string(REGEX REPLACE "cpp$" "h" header "${file}")
+    list(FILTER headers EXCLUDE REGEX "/${header}$")
   endforeach()
   add_library(orthonav_${name} STATIC ${sources})
   add_library(orthonav::${name} ALIAS orthonav_${name})
@@ -34,6 +51,8 @@ function(orthonav_library name)
   endif()
   if(NOT ARG_NOT_INSTALLED)
     set_property(GLOBAL APPEND PROPERTY ORTHONAV_LIBRARIES orthonav_${name})
+    target_sources(orthonav_${name} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${headers})
+    set_property(GLOBAL APPEND PROPERTY ORTHONAV_HEADERS ${headers})
   endif()
 endfunction()
 

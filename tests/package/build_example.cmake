@@ -1,5 +1,6 @@
 # Installs the package into a folder of its own, or uses that of the system where BUILD is not given; builds the
 # examples against it and runs them. COMMAND is `orthonav`.
+cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/step.cmake")
 
 file(REMOVE_RECURSE "${WORK}")
@@ -9,10 +10,46 @@ if(FLAGS)
 endif()
 if(BUILD)
   step("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${WORK}/prefix")
+  # An installed header names no other that is not.
+  file(GLOB_RECURSE headers RELATIVE "${WORK}/prefix/include/orthonav" "${WORK}/prefix/include/orthonav/*.h")
+  foreach(header IN LISTS headers)
+    file(STRINGS "${WORK}/prefix/include/orthonav/${header}" lines REGEX "^#include \"")
+    foreach(line IN LISTS lines)
+      string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" named "${line}")
+      if(NOT named IN_LIST headers)
+        message(FATAL_ERROR "${header} includes ${named}, which is not installed")
+      endif()
+    endforeach()
+  endforeach()
 endif()
 step("${CMAKE_COMMAND}" -S "${EXAMPLE}" -B "${WORK}/build" -G "${GENERATOR}" ${link}
      "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_PREFIX_PATH=${WORK}/prefix")
 step("${CMAKE_COMMAND}" --build "${WORK}/build")
+# Whoever asks for components needs nothing that only others link; an unknown one is told with those there are.
+function(configure_with parts)
+  execute_process(COMMAND "${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/components" -B "${WORK}/components"
+                  -G "${GENERATOR}" ${link} "-DPARTS=${parts}" -DCMAKE_DISABLE_FIND_PACKAGE_Vulkan=ON
+                  "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}"
+                  "-DCMAKE_PREFIX_PATH=${WORK}/prefix"
+                  RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  string(REGEX REPLACE "[ \n]+" " " said "${said}")
+  set(status "${status}" PARENT_SCOPE)
+  set(said "${said}" PARENT_SCOPE)
+endfunction()
+configure_with("nav;engine_case")
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "nav needs Vulkan:\n${said}")
+endif()
+step("${CMAKE_COMMAND}" --build "${WORK}/components")
+step("${WORK}/components/components")
+configure_with("nav;engine")
+if(status EQUAL 0 OR NOT said MATCHES "Vulkan")
+  message(FATAL_ERROR "the control, engine, needs no Vulkan:\n${said}")
+endif()
+configure_with("nav;holograms")
+if(status EQUAL 0 OR NOT said MATCHES "orthonav has no component holograms; it has: base hal_api ")
+  message(FATAL_ERROR "an unknown component was not refused with the known ones:\n${said}")
+endif()
 # The first program that a developer runs guides its screw, and one that does not says so by its exit code.
 step("${WORK}/build/example")
 if(NOT said MATCHES "guide L4 left" OR NOT said MATCHES "off the plan, tip [0-9.]+ mm beside the axis"
