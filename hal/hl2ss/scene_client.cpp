@@ -171,7 +171,7 @@ Status SceneClient::take_done(const Expected& expected, std::uint32_t answer, Ho
 }
 
 Status SceneClient::take_id(std::uint64_t key, std::uint32_t answer, HostTime now) {
-  RemoteObject& remote = remotes_[key];
+  Remote& remote = remotes_[key];
   remote.creating = false;
   has_more_ = true;
   if (answer == 0) {
@@ -194,7 +194,7 @@ void SceneClient::refuse(std::uint64_t key, HostTime now) {
   if (found == remotes_.end()) {
     return;
   }
-  RemoteObject& remote = found->second;
+  Remote& remote = found->second;
   has_more_ = true;
   if (remote.refusals == 0 || remote.id != 0 || now >= remote.ask_again) {
     ++remote.refusals;

@@ -7,7 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "hal/hl2ss/remote_object.h"
+#include "hal/hl2ss/scene_command.h"
+#include "hal/net/socket.h"
 
 namespace orthonav::hl2ss {
 
@@ -54,6 +55,24 @@ class SceneClient {
   void given_up() { ++statistics_.given_up; }
 
  private:
+  /// The headset's state of one object after it has processed everything sent so far.
+  struct Remote {
+    std::uint32_t id = 0;  ///< 0: not created, or not answered yet
+    bool creating = false;
+    bool active = false;
+    bool placed = false;  ///< `told` holds its place
+    bool looks = false;   ///< `told` holds its colour and text
+    DisplayObject told;
+    int refusals = 0;             ///< in a row
+    HostTime ask_again{};         ///< after a refusal, it is not created again before this
+    std::uint64_t wanted_in = 0;  ///< number of the last list that wanted it
+
+    /// The object was refused or removed: nothing of it is left.
+    void forget() {
+      id = 0;
+      creating = active = placed = looks = false;
+    }
+  };
   struct Expected {
     enum class Kind { kCreate, kObject, kPlain, kListEnd, kIdle } kind = Kind::kPlain;
     std::uint64_t key = 0;
@@ -83,12 +102,11 @@ class SceneClient {
   [[nodiscard]] Draft draft_list(bool shows_tools, HostTime now);
   [[nodiscard]] int fuse_frames(const SceneMoment& now) const;
   void draft_presence(const DisplayObject& wanted, HostTime now, Draft& draft);
-  static void draft_removal(const RemoteObject& remote, Draft& draft);
-  void draft_create(const DisplayObject& wanted, RemoteObject& remote, HostTime now, Draft& draft);
-  bool draft_changes(const DisplayObject& wanted, RemoteObject& remote, Draft& draft);
+  static void draft_removal(const Remote& remote, Draft& draft);
+  void draft_create(const DisplayObject& wanted, Remote& remote, HostTime now, Draft& draft);
+  bool draft_changes(const DisplayObject& wanted, Remote& remote, Draft& draft);
   void draft_removals(Draft& draft);
-  void draft_show(const DisplayObject& wanted, RemoteObject& remote, bool shows_tools,
-                  Draft& draft);
+  void draft_show(const DisplayObject& wanted, Remote& remote, bool shows_tools, Draft& draft);
   /// Whether there is room for one more command; otherwise the rest goes into the next list.
   bool has_room(const Draft& draft);
   [[nodiscard]] std::vector<std::uint8_t> assemble(const Draft& draft, int fuse, HostTime now);
@@ -110,7 +128,7 @@ class SceneClient {
   bool list_is_open_ = false;  ///< the fuse has begun the next list
   bool has_more_ = false;      ///< the last list had no room for everything
   std::optional<std::int64_t> epoch_;
-  std::map<std::uint64_t, RemoteObject> remotes_;
+  std::map<std::uint64_t, Remote> remotes_;
   std::deque<Expected> expected_;
   std::size_t awaited_ = 0;           ///< of `expected_`, before the next list may be sent
   std::size_t tool_answers_due_ = 0;  ///< of `expected_`, up to the end of the last fuse

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "hal/hl2ss/scene_client.h"
@@ -18,19 +19,29 @@ constexpr Duration kNetwork = std::chrono::milliseconds(5);
 constexpr std::uint64_t kKeptHiddenLists = 300;
 /// Limits per list: new objects must not displace moving ones, nor vice versa.
 constexpr std::size_t kMaxCreates = 40;
+constexpr double kSmallestScale = 5e-5;
 constexpr std::size_t kBytesToHide = 16;
 /// The beginning and the end of the list, the fuse, and the beginning of the next list.
 constexpr std::size_t kBytesAround = 16 + kMaxFuseFrames * 12;
 
-/// If there is not room for everything, guidance goes first, and moving objects do not starve new
-/// ones.
-enum class Turn { kTool, kNew, kOther };
+/// Whether the difference is visible: 0.05 mm, or a turn that moves a point 5 cm away by as much.
+bool is_moved(const DisplayObject& told, const DisplayObject& wanted) {
+  constexpr double kSmallestMove_m = 5e-5;
+  // Of a quaternion's components, half an angle: 1 mrad moves what is 5 cm away by 0.05 mm.
+  constexpr double kSmallestRotation_rad = 5e-4;
+  const Quaternion& a = told.rotation;
+  const Quaternion& b = wanted.rotation;
+  const double rotation_rad =
+      std::abs(a.x - b.x) + std::abs(a.y - b.y) + std::abs(a.z - b.z) + std::abs(a.w - b.w);
+  return told.place != wanted.place ||
+         (told.position_m - wanted.position_m).norm() > kSmallestMove_m ||
+         rotation_rad > kSmallestRotation_rad ||
+         (told.scale - wanted.scale).norm() > kSmallestScale;
+}
 
-Turn turn_of(const DisplayObject& wanted, const RemoteObject& remote) {
-  if (wanted.follows_tool) {
-    return Turn::kTool;
-  }
-  return remote.placed && remote.active ? Turn::kOther : Turn::kNew;
+bool looks_different(const DisplayObject& told, const DisplayObject& wanted) {
+  return told.colour != wanted.colour || told.text != wanted.text ||
+         std::abs(told.cap_height_m - wanted.cap_height_m) > kSmallestScale;
 }
 
 void put(std::vector<std::uint8_t>& to, const std::vector<std::uint8_t>& from) {
@@ -73,6 +84,9 @@ int SceneClient::fuse_frames(const SceneMoment& now) const {
 }
 
 SceneClient::Draft SceneClient::draft_list(bool shows_tools, HostTime now) {
+  // If there is not room for everything, guidance goes first, and moving objects do not starve new
+  // ones.
+  enum class Turn { kTool, kNew, kOther };
   Draft draft;
   has_more_ = false;
   statistics_.left_out = 0;
@@ -82,8 +96,12 @@ SceneClient::Draft SceneClient::draft_list(bool shows_tools, HostTime now) {
   for (const Turn turn : {Turn::kTool, Turn::kNew, Turn::kOther}) {
     for (const DisplayObject& wanted : wanted_.objects) {
       const auto found = remotes_.find(wanted.key);
-      if (found == remotes_.end() || found->second.id == 0 ||
-          turn_of(wanted, found->second) != turn) {
+      if (found == remotes_.end() || found->second.id == 0) {
+        continue;
+      }
+      const bool moving = found->second.placed && found->second.active;
+      const Turn own = wanted.follows_tool ? Turn::kTool : moving ? Turn::kOther : Turn::kNew;
+      if (own != turn) {
         continue;
       }
       if (draft_changes(wanted, found->second, draft)) {
@@ -111,7 +129,7 @@ void SceneClient::draft_presence(const DisplayObject& wanted, HostTime now, Draf
     ++statistics_.left_out;
     return;
   }
-  RemoteObject& remote = remotes_[wanted.key];
+  Remote& remote = remotes_[wanted.key];
   remote.wanted_in = list_number_;
   if (remote.id != 0 && remote.told.shape != wanted.shape) {
     draft_removal(remote, draft);
@@ -122,13 +140,13 @@ void SceneClient::draft_presence(const DisplayObject& wanted, HostTime now, Draf
   }
 }
 
-void SceneClient::draft_removal(const RemoteObject& remote, Draft& draft) {
+void SceneClient::draft_removal(const Remote& remote, Draft& draft) {
   append_remove(draft.removals.bytes, remote.id);
   draft.removals.expected.push_back({});
 }
 
 /// Objects start hidden, so this alone shows nothing; the rest follows once the id is known.
-void SceneClient::draft_create(const DisplayObject& wanted, RemoteObject& remote, HostTime now,
+void SceneClient::draft_create(const DisplayObject& wanted, Remote& remote, HostTime now,
                                Draft& draft) {
   if (remote.creating) {
     return;
@@ -147,7 +165,7 @@ void SceneClient::draft_create(const DisplayObject& wanted, RemoteObject& remote
 }
 
 /// False where the list had no room for all of it.
-bool SceneClient::draft_changes(const DisplayObject& wanted, RemoteObject& remote, Draft& draft) {
+bool SceneClient::draft_changes(const DisplayObject& wanted, Remote& remote, Draft& draft) {
   std::vector<std::uint8_t>& bytes = draft.changes.bytes;
   const Expected expected{Expected::Kind::kObject, wanted.key};
   const bool moves = !remote.placed || is_moved(remote.told, wanted);
@@ -174,7 +192,7 @@ bool SceneClient::draft_changes(const DisplayObject& wanted, RemoteObject& remot
   return true;
 }
 
-void SceneClient::draft_show(const DisplayObject& wanted, RemoteObject& remote, bool shows_tools,
+void SceneClient::draft_show(const DisplayObject& wanted, Remote& remote, bool shows_tools,
                              Draft& draft) {
   if (wanted.follows_tool && !shows_tools) {
     if (std::exchange(remote.active, false)) {
@@ -200,7 +218,7 @@ void SceneClient::draft_show(const DisplayObject& wanted, RemoteObject& remote, 
 
 void SceneClient::draft_removals(Draft& draft) {
   for (auto each = remotes_.begin(); each != remotes_.end();) {
-    RemoteObject& remote = each->second;
+    Remote& remote = each->second;
     const bool is_wanted = remote.wanted_in == list_number_;
     const bool is_kept = remote.told.follows_tool && !remote.active && remote.placed &&
                          list_number_ - remote.wanted_in < kKeptHiddenLists;
