@@ -37,9 +37,7 @@ std::unique_ptr<render::Renderer> renderer_for(const engine::GoldenScene& scene,
   options.height_px = scene.height_px;
   options.edges = edges;
   options.device = device;
-  if (edges == Edges::kHard) {
-    options.surface_error_m = 0;  // the reference has every triangle
-  }
+  options.every_triangle = edges == Edges::kHard;  // the reference
   auto renderer = render::Renderer::create(options);
   if (!renderer) {
     fail(renderer.error());

@@ -12,6 +12,7 @@
 #include "engine/golden/golden_scenes.h"
 #include "engine/holograms/labels/label_layout.h"
 #include "engine/holograms/shapes/hologram_shapes.h"
+#include "render/decimated.h"
 #include "render/projection.h"
 #include "render/shapes.h"
 
@@ -23,8 +24,7 @@ engine::GoldenScene guidance() {
   std::vector<engine::GoldenScene> scenes = engine::golden_scenes();
   engine::GoldenScene scene = *std::find_if(scenes.begin(), scenes.end(),
                                             [](const auto& s) { return s.name == "guidance"; });
-  auto mesh = std::make_shared<render::MeshData>(render::make_sphere(0.035f, 180, 90));
-  scene.scene.meshes.front().mesh = mesh;
+  scene.scene.meshes.front().mesh = render::prepared(render::make_sphere(0.035f, 180, 90));
   std::vector<render::Float3> path;
   for (int i = 0; i < 500; ++i) {
     path.push_back(

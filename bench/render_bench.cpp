@@ -81,13 +81,13 @@ void print_row(const std::string& name, const std::string& edges, const Row& row
 }
 
 std::unique_ptr<render::Renderer> make_renderer(const Options& options, render::Edges edges,
-                                                float surface_error_m) {
+                                                bool every_triangle) {
   render::RendererOptions wanted;
   wanted.width_px = options.width_px;
   wanted.height_px = options.height_px;
   wanted.edges = edges;
   wanted.device = options.device;
-  wanted.surface_error_m = surface_error_m;
+  wanted.every_triangle = every_triangle;
   auto renderer = render::Renderer::create(wanted);
   if (!renderer) {
     std::fprintf(stderr, "%s\n", renderer.error().message.c_str());
@@ -98,9 +98,9 @@ std::unique_ptr<render::Renderer> make_renderer(const Options& options, render::
 
 class Ours {
  public:
-  Ours(const Options& options, render::Edges edges, float surface_error_m, const FullScene& full)
+  Ours(const Options& options, render::Edges edges, bool every_triangle, const FullScene& full)
       : before_mib_(resident_mib()),
-        renderer_(make_renderer(options, edges, surface_error_m)),
+        renderer_(make_renderer(options, edges, every_triangle)),
         full_(full) {}
 
   void draw(int frame, Row* row) {
@@ -154,12 +154,12 @@ struct Comparison {
 void compare(const Options& options, const Comparison& way, const FullScene& full) {
   constexpr int kWarmUp = 5;
   Row ours, all_triangles, peers;
-  Ours renderer(options, way.edges, render::RendererOptions{}.surface_error_m, full);
+  Ours renderer(options, way.edges, false, full);
   for (int i = 0; i < kWarmUp; ++i) {
     renderer.draw(i, nullptr);
   }
   ours.memory_mib = resident_mib() - renderer.before_mib();
-  Ours whole(options, way.edges, 0, full);
+  Ours whole(options, way.edges, true, full);
   for (int i = 0; i < kWarmUp; ++i) {
     whole.draw(i, nullptr);
   }

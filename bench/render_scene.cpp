@@ -79,7 +79,7 @@ void add_cross(render::Scene& scene, const std::vector<render::View>& views) {
     ring.closed = true;
     scene.lines.push_back(ring);
   }
-  const auto dot = std::make_shared<render::MeshData>(render::make_sphere(0.0006f));
+  const auto dot = render::prepared(render::make_sphere(0.0006f));
   for (const float offset_m : {0.001f, -0.002f}) {
     render::MeshItem item;
     item.label = 701;
@@ -97,8 +97,7 @@ FullScene full_scene() {
   FullScene full{guidance.scene, guidance.views};
   const auto vertebra = std::find_if(full.scene.meshes.begin(), full.scene.meshes.end(),
                                      [](const auto& item) { return item.label == 201; });
-  vertebra->mesh =
-      std::make_shared<render::MeshData>(render::decimated(refined(*vertebra->mesh), kTriangles));
+  vertebra->mesh = render::prepared(render::decimated(refined(*vertebra->mesh), kTriangles));
   const render::Scene rod = golden("h10_rod").scene;
   for (const auto& item : rod.meshes) {
     full.scene.meshes.push_back(item);

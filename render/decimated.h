@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include "render/scene.h"
 
@@ -13,20 +14,19 @@ namespace orthonav::render {
 /// unchanged.
 [[nodiscard]] MeshData decimated(const MeshData& mesh, std::size_t most_triangles);
 
-/// The same, with as few triangles as possible while the surface moves by no more than about
-/// `error_m`, but never fewer than about `enough_triangles`.
-[[nodiscard]] MeshData simplified(const MeshData& mesh, std::size_t enough_triangles,
-                                  float error_m);
-
-/// A mesh with fewer triangles.
-struct Coarser {
-  MeshData mesh;
-  float error_m = 0;  ///< how far the surface moved, mean over triangles
+/// How finely a surface is drawn.
+struct MeshDetail {
+  /// In the mesh's own unit: a surface of many triangles is drawn from nearby with as few as move
+  /// it by no more than this, mean over triangles (single points may be four times as far off).
+  float error = 2e-5f;
+  std::size_t enough_triangles = 14'000;  ///< with fewer, simplifying does not pay
+  std::size_t most_triangles = 250'000;   ///< regardless of the error
 };
 
-/// The mesh with about this many triangles or, where its shape forbids that, more. Where two
-/// vertices lie at one place they stay apart, as at the rim of a cap, unless `joined`: then a
-/// surface of separate triangles gets fewer as well.
-[[nodiscard]] Coarser coarser(const MeshData& mesh, std::size_t triangles, bool joined);
+/// The mesh with its levels of detail, to be shared by scenes. It takes some tens of milliseconds
+/// for a vertebra: for when a model is loaded, not for a frame. The renderer makes no levels. A
+/// mesh that is not valid is returned as it is, for the renderer to say what is wrong.
+[[nodiscard]] std::shared_ptr<const MeshData> prepared(MeshData mesh,
+                                                       const MeshDetail& detail = {});
 
 }  // namespace orthonav::render

@@ -1,13 +1,16 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/image.h"
 #include "base/result.h"
+#include "base/vulkan_handover.h"
 #include "render/scene.h"
 
 namespace orthonav::render {
@@ -31,21 +34,19 @@ enum class Edges {
 };
 
 struct RendererOptions {
-  int width_px = 1268;  ///< of one eye, 16 to 8192
+  int width_px = 1268;  ///< of an image that is read back, 16 to 8192
   int height_px = 720;
   Blend blend = Blend::kAdditive;
   /// Blend::kPremultiplied uses four samples instead of coverage, since coverage is kept in alpha.
   Edges edges = Edges::kCoverage;
-  std::string
-      device;  ///< part of a device's name ("llvmpipe"); empty: the best GPU, or else lavapipe
+  /// Part of a device's name ("llvmpipe"); empty: the best GPU, or else lavapipe. A host chooses
+  /// its own.
+  std::string device;
   bool validation = false;
   MessageSink messages;  ///< empty: the renderer has its own
   EyesAPass eyes_a_pass = EyesAPass::kProbe;
-  /// Surfaces of many triangles are drawn with fewer where the error is no larger than this mean
-  /// over triangles (single points may be four times as far off); 0: every triangle. Surfaces too
-  /// large to be drawn at all are simplified even then, with a note. Unless it is 0, surfaces far
-  /// away are drawn with fewer triangles still (docs/rendering.md).
-  float surface_error_m = 2e-5f;
+  /// Draws every triangle of prepared surfaces too, from any distance (`prepared`).
+  bool every_triangle = false;
   /// Where compiled pipelines are kept for the next start. Not set: the user's cache folder
   /// (XDG_CACHE_HOME or ~/.cache); empty: they are not kept.
   std::optional<std::string> cache_folder;
@@ -63,18 +64,39 @@ struct DeviceInfo {
 struct FrameTiming {
   double record_ms = 0;  ///< checks, layout, commands
   double submit_ms = 0;  ///< submission to the driver
-  double gpu_ms = 0;     ///< from submission to the fence
+  double gpu_ms = 0;     ///< from submission to the fence; of a host's frame: the wait for an older
   double read_ms = 0;    ///< into the images
   double total_ms = 0;
 };
 
-/// Draws scenes into images. Owns a Vulkan device; one thread at a time. Nothing is thrown; an
-/// Error is one line, and the renderer stays usable after it unless its code is kLost: then the
-/// device is lost, and every call fails from then on.
+/// Makes instance and device for a renderer that draws into its images, such as the runtime of a
+/// headset. A handle in an answer is never null.
+class VulkanHost {
+ public:
+  virtual ~VulkanHost() = default;
+  /// The oldest and the newest version that the host takes.
+  [[nodiscard]] virtual std::array<VulkanVersion, 2> versions() const = 0;
+  /// A VkInstance as described by a VkInstanceCreateInfo; the renderer destroys it.
+  virtual Result<void*> create_instance(VulkanFunction get_instance_proc_addr,
+                                        const void* info) = 0;
+  /// The VkPhysicalDevice to be used.
+  virtual Result<void*> physical_device(void* instance) = 0;
+  /// A VkDevice as described by a VkDeviceCreateInfo; the renderer destroys it.
+  virtual Result<void*> create_device(void* physical, VulkanFunction get_instance_proc_addr,
+                                      const void* info) = 0;
+};
+
+/// Draws scenes on a Vulkan device, its own or a host's, into images that are read back or into
+/// images that others made on that device. One thread at a time; with a host, the one that the host
+/// allows to use the queue. Nothing is thrown; an Error is one line, and the renderer stays usable
+/// after it unless its code is kLost: then the device is lost, and every call fails from then on.
 class Renderer {
  public:
   /// An Error if the options can't be met or no Vulkan device is suitable.
   static Result<std::unique_ptr<Renderer>> create(const RendererOptions& options);
+  /// On the host's device. The host is asked during this call only; its errors are passed on
+  /// unchanged.
+  static Result<std::unique_ptr<Renderer>> create(const RendererOptions& options, VulkanHost& host);
   virtual ~Renderer() = default;
 
   /// Draws `scene` for one or two views. `backgrounds` is empty (black) or one image per view of
@@ -86,7 +108,38 @@ class Renderer {
   /// The label images of the same scene.
   virtual Status draw_labels(const Scene& scene, const std::vector<View>& views,
                              std::vector<LabelImage>& images) = 0;
+
+  // Into images that others made, two frames at a time: while the device draws one, the next is
+  // recorded.
+
+  [[nodiscard]] virtual VulkanObjects objects() const = 0;
+  /// How well images of this VkFormat suit: the higher the better; 0 if they can't be drawn into.
+  /// sRGB formats are encoded, all others hold linear light.
+  [[nodiscard]] virtual int format_score(std::int64_t format) const = 0;
+  /// The same for depth images.
+  [[nodiscard]] virtual int depth_format_score(std::int64_t format) const = 0;
+  /// The images to draw into from now on; they must stay until the next call or `finish`. If
+  /// coverage is computed they are also copied from; images of two layers may be copied into.
+  virtual Status use(const EyeImages& images) = 0;
+  /// Does the slow work that does not need the views: waits for the oldest frame in flight, checks
+  /// the scene, uploads new meshes. `draw` of the same scene must follow.
+  virtual Status prepare(const Scene& scene) = 0;
+  /// Draws `scene` for both eyes into image `indices[i]` of chain i, the chains of depth after the
+  /// others, and returns once the frame is submitted. The images are left as colour attachments,
+  /// and as depth and stencil attachments.
+  virtual Status draw(const Scene& scene, const std::vector<View>& views,
+                      std::span<const std::uint32_t> indices, HeadTexts head_texts) = 0;
+  /// Draws the texts of `scene` for one view into image `index` of the panel, between frames or
+  /// between `prepare` and `draw`, and returns once they are submitted. Colours come out
+  /// premultiplied, with their opacity as alpha; on an additive display alpha is 0, so that the
+  /// panel is added to what lies below it.
+  virtual Status draw_panel(const Scene& scene, const View& view, std::uint32_t index) = 0;
+  /// Waits for every frame in flight and releases the images: they may be destroyed.
+  virtual Status finish() = 0;
+
+  [[nodiscard]] virtual bool lost() const = 0;
   [[nodiscard]] virtual const DeviceInfo& device() const = 0;
+  /// Of the last frame.
   [[nodiscard]] virtual FrameTiming last_timing() const = 0;
   /// What the validation layer has reported so far; empty when there was nothing or it is off.
   [[nodiscard]] virtual const std::vector<std::string>& validation_messages() const = 0;

@@ -34,6 +34,12 @@ struct Colour {
 /// By convention 100·n + k for the k-th instance of hologram Hn (H3 of screw 2: 302).
 using Label = std::uint32_t;
 
+/// Triangles that stand for those of a surface, between the same vertices.
+struct MeshLevel {
+  std::vector<std::uint32_t> indices;
+  float error = 0;  ///< how far they are off, mean over triangles, in the mesh's own unit
+};
+
 /// A surface, shared between frames: the renderer identifies its GPU copy by the pointer. Its
 /// inside is never drawn.
 struct MeshData {
@@ -42,6 +48,9 @@ struct MeshData {
   std::vector<std::uint32_t> indices;  ///< three per triangle, counter-clockwise from outside
   /// From 0 (the item's colour) to 1 (its tint): one per vertex, or none for the colour alone.
   std::vector<float> tints;
+  /// Finest first, as `prepared` finds them; the farther away, the coarser the one that is drawn.
+  /// None: `indices`, wherever it is.
+  std::vector<MeshLevel> levels;
   /// For a tube: the path it was made along, and its radius; otherwise empty. Not drawn.
   std::vector<Float3> axis;
   float axis_radius_m = 0;

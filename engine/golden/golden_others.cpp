@@ -6,6 +6,7 @@
 #include "base/angle.h"
 #include "engine/golden/golden_stage.h"
 #include "engine/holograms/scene_builder.h"
+#include "render/decimated.h"
 #include "render/float3.h"
 #include "render/shapes.h"
 
@@ -44,8 +45,7 @@ GoldenScene rod(const std::string& name, const std::string& what, Float3 offset,
        {centre_line[34], 4.9 * kRadiansPerDegree, 0.0578,
         RodBendMark::Making{40.0 * kRadiansPerDegree, 9.0 * kRadiansPerDegree}}}};
   RodHologram hologram;
-  hologram.tube =
-      std::make_shared<const render::MeshData>(render::make_tube(centre_line, 0.00275f));
+  hologram.tube = render::prepared(render::make_tube(centre_line, 0.00275f));
   hologram.heads = kHeads;
   hologram.bends = bends;
   hologram.length_m = 0.0820;

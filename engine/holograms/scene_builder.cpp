@@ -13,6 +13,7 @@
 #include "engine/holograms/shapes/screw_holograms.h"
 #include "engine/session/tools_in_hand.h"
 #include "nav/published/stroke_pattern.h"
+#include "render/decimated.h"
 #include "render/shapes.h"
 
 namespace orthonav::engine {
@@ -441,6 +442,12 @@ void SceneBuilder::add_status(const Guidance& guidance, render::Scene& scene) {
 
 // The meshes that a scene shares from frame to frame.
 
+void SceneBuilder::prepare(std::span<const LevelState> levels) {
+  for (const LevelState& level : levels) {
+    surface_of(level);
+  }
+}
+
 const std::shared_ptr<const render::MeshData>& SceneBuilder::surface_of(const LevelState& level) {
   auto& surface = surfaces_[level.plan.model.get()];
   if (!surface) {
@@ -479,8 +486,8 @@ const std::shared_ptr<const render::MeshData>& SceneBuilder::tube_of(std::size_t
     for (const Vec3 p : rod.rod->path_m) {
       path.push_back(to_float3(p));
     }
-    tube.mesh = std::make_shared<render::MeshData>(
-        render::make_tube(path, static_cast<float>(rod.rod->diameter_m / 2.0)));
+    tube.mesh =
+        render::prepared(render::make_tube(path, static_cast<float>(rod.rod->diameter_m / 2.0)));
   }
   return tube.mesh;
 }

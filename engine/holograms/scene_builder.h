@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/holograms/labels/gaze_anchor.h"
@@ -25,6 +26,8 @@ class SceneBuilder {
  public:
   explicit SceneBuilder(const VisibilityRules& rules = {}) : rules_(rules) {}
 
+  /// Makes what takes too long for a frame: the levels' surfaces.
+  void prepare(std::span<const LevelState> levels);
   /// Where the eyes look, in the headset's map, for the updates that follow; absent: not known.
   void look_at(const std::optional<Gaze>& gaze) { gaze_ = gaze; }
   /// Decides what this guidance shows in a frame shown when it expects, or later; the two

@@ -20,6 +20,7 @@
 #include "engine/holograms/shapes/render_values.h"
 #include "engine/io/mesh_file.h"
 #include "nav/guidance/rod.h"
+#include "render/decimated.h"
 #include "render/float3.h"
 #include "render/shapes.h"
 
@@ -149,8 +150,8 @@ void add_rod_through(const JsonNode& node, Label label, Scene& scene) {
     for (const Vec3 p : rod->path_m) {
       path.push_back(to_float3(p));
     }
-    hologram.tube = std::make_shared<const render::MeshData>(
-        render::make_tube(path, static_cast<float>(0.5 * rod->diameter_m)));
+    hologram.tube =
+        render::prepared(render::make_tube(path, static_cast<float>(0.5 * rod->diameter_m)));
     for (const nav::RodBend& bend : rod->bends) {
       bends.push_back({to_float3(bend.position_m), bend.angle_rad, bend.arc_length_m});
     }

@@ -44,6 +44,13 @@ AssembledOperation::AssembledOperation(Headset& headset, std::unique_ptr<Session
   session_->observe(&observers_);
 }
 
+void AssembledOperation::draw_into(SnapshotSink* sink) {
+  if (sink != nullptr) {
+    builder_.prepare(session_->levels());
+  }
+  loop_.draw_into(sink);
+}
+
 Result<std::unique_ptr<AssembledOperation>> assemble_operation(
     Headset& headset, Operation operation, const Method& method,
     const std::vector<nav::ToolGeometry>& tools, const AssemblyOptions& options) {

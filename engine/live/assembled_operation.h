@@ -51,7 +51,8 @@ class AssembledOperation {
   Status resume(const LoggedOperation& logged) { return session_->resume(logged); }
   /// Sets the source of what the status line says about saving; null: nothing.
   void show_saving(const SaveWatch* saving) { session_->show_saving(saving); }
-  void draw_into(SnapshotSink* sink) { loop_.draw_into(sink); }
+  /// Where frames are drawn; null: nowhere. Before `run`: the surfaces to be drawn are made here.
+  void draw_into(SnapshotSink* sink);
   /// Requests from other programs, in addition to clicker and voice; null: none. Borrowed.
   void hear(Requests* requests) { loop_.hear(requests); }
   /// From now on everything goes through `wrapper`, which forwards to the original headset. For a

@@ -31,7 +31,7 @@ class Host : public render::VulkanHost {
 
 class Preference : public FormatPreference {
  public:
-  explicit Preference(const render::HostedRenderer& renderer) : renderer_(renderer) {}
+  explicit Preference(const render::Renderer& renderer) : renderer_(renderer) {}
   [[nodiscard]] int format_score(std::int64_t format) const override {
     return renderer_.format_score(format);
   }
@@ -42,7 +42,7 @@ class Preference : public FormatPreference {
   [[nodiscard]] std::array<int, 2> panel_px() const override { return kStatusPanel_px; }
 
  private:
-  const render::HostedRenderer& renderer_;
+  const render::Renderer& renderer_;
 };
 
 render::Blend blend_for(WorldBlend blend) {
@@ -73,7 +73,7 @@ Result<std::unique_ptr<DisplayRenderer>> DisplayRenderer::start(PixelDisplay& di
   options.blend = blend_for(needs->blend);
   Host host(display, *needs);
   std::unique_ptr<DisplayRenderer> made(new DisplayRenderer(display));
-  auto renderer = render::HostedRenderer::create(options, host);
+  auto renderer = render::Renderer::create(options, host);
   if (!renderer) {
     return renderer.error();
   }

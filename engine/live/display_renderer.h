@@ -8,7 +8,7 @@
 #include "base/result.h"
 #include "engine/live/status_panel.h"
 #include "hal/api/pixel_display.h"
-#include "render/hosted_renderer.h"
+#include "render/renderer.h"
 
 namespace orthonav::engine {
 
@@ -16,7 +16,7 @@ namespace orthonav::engine {
 /// The only connection between the two: neither knows the other.
 class DisplayRenderer {
  public:
-  /// Opens the display and starts it. `options` as for HostedRenderer, except that the display
+  /// Opens the display and starts it. `options` as for render::Renderer, except that the display
   /// decides the blend.
   static Result<std::unique_ptr<DisplayRenderer>> start(PixelDisplay& display,
                                                         render::RendererOptions options);
@@ -33,7 +33,7 @@ class DisplayRenderer {
   Result<bool> draw(const render::Scene& scene);
   /// Ends the frame with what was drawn since it was begun.
   Status end_frame();
-  [[nodiscard]] const render::HostedRenderer& renderer() const { return *renderer_; }
+  [[nodiscard]] const render::Renderer& renderer() const { return *renderer_; }
   /// The scene drawn last (the given one, or the part of it that is fixed to the head) and its
   /// views.
   [[nodiscard]] const render::Scene& drawn() const { return *drawn_; }
@@ -49,7 +49,7 @@ class DisplayRenderer {
   Status draw_eyes(const EyeViews& eyes, std::span<const std::uint32_t> images);
 
   PixelDisplay& display_;
-  std::unique_ptr<render::HostedRenderer> renderer_;
+  std::unique_ptr<render::Renderer> renderer_;
   std::optional<StatusPanel> panel_;
   bool panel_shows_ = false;  ///< the panel shows what hangs on the head, in this frame
   bool eyes_drawn_ = false;   ///< in this frame

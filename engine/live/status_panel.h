@@ -6,7 +6,7 @@
 
 #include "engine/holograms/labels/panel_layout.h"
 #include "hal/api/pixel_display.h"
-#include "render/hosted_renderer.h"
+#include "render/renderer.h"
 
 namespace orthonav::engine {
 
@@ -16,7 +16,7 @@ namespace orthonav::engine {
 class StatusPanel {
  public:
   /// `offered`: whether the display has images for it. `display` and `renderer` must outlive it.
-  StatusPanel(PixelDisplay& display, render::HostedRenderer& renderer, bool offered)
+  StatusPanel(PixelDisplay& display, render::Renderer& renderer, bool offered)
       : display_(display), renderer_(renderer), offered_(offered) {}
 
   /// Makes the panel show what hangs on the head in this frame's scene. False: the eyes' images
@@ -35,7 +35,7 @@ class StatusPanel {
   Status draw();
 
   PixelDisplay& display_;
-  render::HostedRenderer& renderer_;
+  render::Renderer& renderer_;
   bool offered_;
   PanelLayout layout_;
   const render::View view_ = status_panel_view();

@@ -161,6 +161,19 @@ Status check_items(const ItemList<Item>& items, const char* kind) {
   return {};
 }
 
+Status check_indices(const MeshData& mesh, const std::vector<std::uint32_t>& indices) {
+  if (indices.size() % 3 != 0) {
+    return Error{std::to_string(indices.size()) + " indices, expected three a triangle"};
+  }
+  for (const std::uint32_t index : indices) {
+    if (index >= mesh.positions.size()) {
+      return Error{"index " + std::to_string(index) + ", limit " +
+                   std::to_string(mesh.positions.size()) + " vertices"};
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Status check_scene(const Scene& scene) {
@@ -210,9 +223,6 @@ Status check_mesh(const MeshData& mesh) {
       return Error{"tint " + std::to_string(i) + " is outside 0 to 1"};
     }
   }
-  if (mesh.indices.size() % 3 != 0) {
-    return Error{std::to_string(mesh.indices.size()) + " indices, expected three a triangle"};
-  }
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     if (!is_place(mesh.positions[i])) {
       return Error{"vertex " + std::to_string(i) + " is not finite"};
@@ -222,16 +232,18 @@ Status check_mesh(const MeshData& mesh) {
       return Error{"normal " + std::to_string(i) + " is not of unit length"};
     }
   }
-  for (const std::uint32_t index : mesh.indices) {
-    if (index >= mesh.positions.size()) {
-      return Error{"index " + std::to_string(index) + ", limit " +
-                   std::to_string(mesh.positions.size()) + " vertices"};
+  if (const Status checked = check_indices(mesh, mesh.indices); !checked) {
+    return checked;
+  }
+  for (const MeshLevel& level : mesh.levels) {
+    if (const Status checked = check_indices(mesh, level.indices); !checked) {
+      return checked;
     }
   }
   return {};
 }
 
-Status check_backgrounds(const std::vector<const RgbaImage*>& backgrounds,
+Status check_backgrounds(std::span<const RgbaImage* const> backgrounds,
                          const std::vector<View>& views, int width_px, int height_px) {
   if (backgrounds.empty()) {
     return {};

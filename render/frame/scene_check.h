@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "base/result.h"
@@ -13,7 +14,7 @@ namespace orthonav::render {
 [[nodiscard]] Status check_scene(const Scene& scene);
 [[nodiscard]] Status check_views(const std::vector<View>& views);
 [[nodiscard]] Status check_mesh(const MeshData& mesh);
-[[nodiscard]] Status check_backgrounds(const std::vector<const RgbaImage*>& backgrounds,
+[[nodiscard]] Status check_backgrounds(std::span<const RgbaImage* const> backgrounds,
                                        const std::vector<View>& views, int width_px, int height_px);
 [[nodiscard]] Status check_options(const RendererOptions& options);
 

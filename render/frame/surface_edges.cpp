@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <tuple>
 
 #include "render/float3.h"
@@ -22,14 +21,16 @@ struct Side {
 
 auto coordinates(Float3 p) { return std::tuple(p.x, p.y, p.z); }
 
-/// For each vertex, which of `positions` it lies at.
-std::vector<std::uint32_t> welded(const MeshData& mesh, std::vector<Float3>& positions) {
-  std::vector<std::uint32_t> order(mesh.positions.size());
-  std::iota(order.begin(), order.end(), 0u);
+/// For each vertex that is used, which of `positions` it lies at.
+std::vector<std::uint32_t> welded(const MeshData& mesh, std::span<const std::uint32_t> indices,
+                                  std::vector<Float3>& positions) {
+  std::vector<std::uint32_t> order(indices.begin(), indices.end());
+  std::sort(order.begin(), order.end());
+  order.erase(std::unique(order.begin(), order.end()), order.end());
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return coordinates(mesh.positions[a]) < coordinates(mesh.positions[b]);
   });
-  std::vector<std::uint32_t> place(order.size());
+  std::vector<std::uint32_t> place(mesh.positions.size());
   for (const std::uint32_t vertex : order) {
     if (positions.empty() || !(positions.back() == mesh.positions[vertex])) {
       positions.push_back(mesh.positions[vertex]);
@@ -39,13 +40,14 @@ std::vector<std::uint32_t> welded(const MeshData& mesh, std::vector<Float3>& pos
   return place;
 }
 
-std::vector<Side> sides_of(const MeshData& mesh, const std::vector<std::uint32_t>& place) {
+std::vector<Side> sides_of(std::span<const std::uint32_t> indices,
+                           const std::vector<std::uint32_t>& place) {
   std::vector<Side> sides;
-  sides.reserve(mesh.indices.size());
-  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+  sides.reserve(indices.size());
+  for (std::size_t i = 0; i < indices.size(); ++i) {
     const auto triangle = static_cast<std::uint32_t>(i / 3);
-    const std::uint32_t a = mesh.indices[i];
-    const std::uint32_t b = mesh.indices[i % 3 == 2 ? i - 2 : i + 1];
+    const std::uint32_t a = indices[i];
+    const std::uint32_t b = indices[i % 3 == 2 ? i - 2 : i + 1];
     if (place[a] == place[b]) {
       continue;
     }
@@ -69,10 +71,11 @@ bool is_crease(const MeshData& mesh, const Side& a, const Side& b) {
 }
 
 /// Whether a triangle reaches above the plane of its neighbour.
-bool is_hollow(const MeshData& mesh, const Float4& plane, const Side& neighbour) {
+bool is_hollow(const MeshData& mesh, std::span<const std::uint32_t> indices, const Float4& plane,
+               const Side& neighbour) {
   float highest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Float3 p = mesh.positions[mesh.indices[3 * neighbour.triangle + i]];
+    const Float3 p = mesh.positions[indices[3 * neighbour.triangle + i]];
     highest = std::max(highest, plane.x * p.x + plane.y * p.y + plane.z * p.z + plane.w);
   }
   // Rounding must not hide an edge between triangles in one plane.
@@ -135,15 +138,15 @@ void find_faces(const std::vector<Float4>& planes, Float3 eye, std::vector<std::
 
 }  // namespace
 
-SurfaceEdges::SurfaceEdges(const MeshData& mesh) {
-  const std::vector<std::uint32_t> place = welded(mesh, positions_);
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const Float3 a = mesh.positions[mesh.indices[i]];
+SurfaceEdges::SurfaceEdges(const MeshData& mesh, std::span<const std::uint32_t> indices) {
+  const std::vector<std::uint32_t> place = welded(mesh, indices, positions_);
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+    const Float3 a = mesh.positions[indices[i]];
     const Float3 normal =
-        cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a);
+        cross(mesh.positions[indices[i + 1]] - a, mesh.positions[indices[i + 2]] - a);
     planes_.push_back({normal.x, normal.y, normal.z, -dot(normal, a)});
   }
-  const std::vector<Side> sides = sides_of(mesh, place);
+  const std::vector<Side> sides = sides_of(indices, place);
   for (std::size_t i = 0; i < sides.size();) {
     const Side& a = sides[i];
     std::size_t alike = 1;
@@ -157,7 +160,7 @@ SurfaceEdges::SurfaceEdges(const MeshData& mesh) {
     edges_.push_back({a.forward ? ends : std::array{a.high, a.low},
                       {a.triangle, b.triangle},
                       is_crease(mesh, a, b),
-                      is_hollow(mesh, planes_[a.triangle], b)});
+                      is_hollow(mesh, indices, planes_[a.triangle], b)});
     i += alike;
   }
   // Euler: a sphere has two more corners and faces than edges.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "render/frame/frame_items.h"
@@ -30,7 +31,9 @@ struct EdgeScratch {
 class SurfaceEdges {
  public:
   SurfaceEdges() = default;
-  explicit SurfaceEdges(const MeshData& mesh);
+  /// Of those triangles of the mesh.
+  SurfaceEdges(const MeshData& mesh, std::span<const std::uint32_t> indices);
+  explicit SurfaceEdges(const MeshData& mesh) : SurfaceEdges(mesh, mesh.indices) {}
 
   /// Adds what the surface hides of others, if it is closed and convex.
   void hide(const View& view, PixelSize size, const PlacedSurface& surface, EdgeScratch& scratch,

@@ -66,13 +66,12 @@ void Commands::wait() {
   // The batch can't be cancelled. Nothing that it reads may be destroyed before it ends or the
   // driver declares the device lost, however long that takes. The device counts as lost either way,
   // since waiting again would not help.
-  lost_ = true;
   vkDeviceWaitIdle(device_);
   if (result == VK_TIMEOUT) {
     throw Failure(VK_ERROR_DEVICE_LOST,
                   "drawing for over " + std::to_string(patience_.count() / 1'000'000) + " ms");
   }
-  throw Failure(result, "drawing");
+  throw Failure(Error{Failure(result, "drawing").what(), ErrorCode::kLost});
 }
 
 void change_layout(VkCommandBuffer commands, const LayoutChange& change) {

@@ -21,14 +21,12 @@ class Commands {
   void run();
   /// Submits the batch; `wait` before the next `begin`.
   void submit();
-  /// Waits until the submitted batch has ended; returns at once if there is none. Throws on a lost
-  /// device or one that takes longer than `patience`, but not before the device is idle, so that
-  /// the caller may destroy what the batch used.
+  /// Waits until the submitted batch has ended; returns at once if there is none. If that fails or
+  /// takes longer than `patience`, it throws that the device is lost, but not before the device is
+  /// idle, so that the caller may destroy what the batch used.
   void wait();
   /// Milliseconds that submitting the last batch took.
   [[nodiscard]] double submit_ms() const { return submit_ms_; }
-  /// Whether a submitted batch failed: the device must not draw any more.
-  [[nodiscard]] bool lost() const { return lost_; }
 
  private:
   VkDevice device_ = VK_NULL_HANDLE;
@@ -38,7 +36,6 @@ class Commands {
   Fence finished_;
   std::chrono::nanoseconds patience_;
   double submit_ms_ = 0;
-  bool lost_ = false;
   bool underway_ = false;
 };
 

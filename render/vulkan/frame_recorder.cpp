@@ -20,6 +20,16 @@ PixelRect compact(const std::vector<PixelRect>& regions) {
 }  // namespace
 
 void record_frame(VkCommandBuffer commands, const FrameSources& sources) {
+  const Targets& targets = sources.pass.targets;
+  const TargetSpec& spec = targets.spec();
+  if (!spec.outer.empty()) {
+    const PixelRect whole{0, 0, static_cast<int>(spec.width), static_cast<int>(spec.height)};
+    RegionRecording(commands, sources, whole).everything();
+    if (targets.copies_result()) {
+      targets.copy_result(commands, sources.outer);
+    }
+    return;
+  }
   const std::vector<PixelRect>& regions = sources.items.regions();
   if (const PixelRect all = compact(regions); !all.empty()) {
     RegionRecording(commands, sources, all).everything();
@@ -32,15 +42,6 @@ void record_frame(VkCommandBuffer commands, const FrameSources& sources) {
     RegionRecording(commands, sources, region).copy();
   }
   wait_for_copies(commands, sources.readback, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
-}
-
-void record_outer_frame(VkCommandBuffer commands, const FrameSources& sources) {
-  const TargetSpec& spec = sources.pass.targets.spec();
-  const PixelRect whole{0, 0, static_cast<int>(spec.width), static_cast<int>(spec.height)};
-  RegionRecording(commands, sources, whole).everything();
-  if (sources.pass.targets.copies_result()) {
-    sources.pass.targets.copy_result(commands, sources.outer);
-  }
 }
 
 }  // namespace orthonav::render

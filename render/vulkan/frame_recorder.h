@@ -14,12 +14,10 @@ namespace orthonav::render {
 struct FramePass {
   FramePass(const Device& device, VkPipelineCache cache, VkPipelineLayout layout,
             const TargetSpec& spec, Blend blend)
-      : targets(device, spec),
-        pipelines(device, cache, layout, targets, blend),
-        clear_alpha(blend == Blend::kPremultiplied ? 0.0f : 1.0f) {}
+      : targets(device, spec), pipelines(device, cache, layout, targets, blend) {}
   Targets targets;
   Pipelines pipelines;
-  float clear_alpha;  ///< of a pixel without hologram
+  float clear_alpha = 1;  ///< of a pixel without hologram
 };
 
 /// Corners and indices of one segment of a line, as line.vert expects them.
@@ -61,12 +59,10 @@ struct FrameSources {
   VkImage drawn = VK_NULL_HANDLE;  ///< receives a copy of the drawn image before edges are smoothed
 };
 
-/// Records drawing the regions that hold holograms, and the copy of each into its place in the
-/// readback buffer; pixels outside are not touched. The rules of depth and order are in
+/// Records drawing a frame. In the targets' own images, the regions that hold holograms are drawn,
+/// and each is copied into its place in the readback buffer; pixels outside are not touched. An
+/// outer image is drawn whole. The rules of depth and order are in
 /// docs/decisions/0021-holograms-need-no-order.md.
 void record_frame(VkCommandBuffer commands, const FrameSources& sources);
-
-/// Records drawing one whole outer image of the targets, without a copy.
-void record_outer_frame(VkCommandBuffer commands, const FrameSources& sources);
 
 }  // namespace orthonav::render

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "render/hosted_renderer.h"
 #include "render/renderer.h"
 
 namespace orthonav::render {

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 
-#include "render/decimated.h"
 #include "render/frame/scene_check.h"
 #include "render/vulkan/gpu_types.h"
 
 namespace orthonav::render {
 namespace {
 
-constexpr int kMaxIdleFrames = 300;        // five seconds of a headset's frames
-constexpr std::size_t kFewTriangles = 64;  // fewer cost next to nothing
-constexpr double kWorthwhile = 0.85;       // of the triangles of the level before
+constexpr int kMaxIdleFrames = 300;  // five seconds of a headset's frames
 
 std::vector<GpuVertex> vertices_of(const MeshData& mesh) {
   std::vector<GpuVertex> vertices(mesh.positions.size());
@@ -40,58 +37,32 @@ Buffer uploaded(const Device& device, Commands& commands, const void* bytes, std
   return buffer;
 }
 
-MeshLevel level_of(const Device& device, Commands& commands, const MeshData& mesh, bool edges) {
-  MeshLevel level;
-  level.index_count = static_cast<std::uint32_t>(mesh.indices.size());
-  const std::vector<GpuVertex> vertices = vertices_of(mesh);
-  if (edges) {
-    level.edges = SurfaceEdges(mesh);
-  }
-  level.vertices = uploaded(device, commands, vertices.data(), vertices.size() * sizeof(GpuVertex),
-                            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-  level.indices =
-      uploaded(device, commands, mesh.indices.data(), mesh.indices.size() * sizeof(std::uint32_t),
-               VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
-  return level;
-}
-
-/// The mesh as it is drawn from nearby.
-MeshData finest_of(const MeshData& mesh, const MeshDetail& detail) {
-  return mesh.indices.size() > 3 * detail.enough_triangles
-             ? decimated(simplified(mesh, detail.enough_triangles, detail.error),
-                         detail.most_triangles)
-             : mesh;
-}
-
-/// For views from farther away. Errors are those from the mesh as given.
-void add_coarser(const Device& device, Commands& commands, const MeshData& mesh,
-                 const MeshDetail& detail, std::vector<MeshLevel>& levels) {
-  const std::size_t finest = levels.front().index_count / 3;
-  const bool large = mesh.indices.size() > 3 * detail.enough_triangles;
-  for (const double share : {0.7, 0.5, 0.3}) {
-    const auto wanted = static_cast<std::size_t>(share * static_cast<double>(finest));
-    const Coarser fewer = wanted < kFewTriangles ? Coarser{} : coarser(mesh, wanted, large);
-    if (fewer.mesh.indices.empty() ||
-        static_cast<double>(fewer.mesh.indices.size()) > kWorthwhile * levels.back().index_count) {
-      return;
-    }
-    levels.push_back(level_of(device, commands, fewer.mesh, detail.edges));
-    levels.back().error = fewer.error_m;
-  }
-}
-
 GpuMesh copy_of(const Device& device, Commands& commands, const MeshData& mesh,
-                const MeshDetail& detail) {
+                const MeshCache::Options& options) {
   GpuMesh copy;
   copy.box = box_of(mesh);
-  const MeshData finest = finest_of(mesh, detail);
-  if (finest.indices.empty()) {
+  if (mesh.indices.empty()) {
     return copy;
   }
-  copy.levels.push_back(level_of(device, commands, finest, detail.edges));
-  if (detail.error > 0) {
-    add_coarser(device, commands, mesh, detail, copy.levels);
+  std::vector<std::uint32_t> all;
+  const auto add = [&](const std::vector<std::uint32_t>& indices, float error) {
+    copy.levels.push_back({static_cast<std::uint32_t>(all.size()),
+                           static_cast<std::uint32_t>(indices.size()), error,
+                           options.edges ? SurfaceEdges(mesh, indices) : SurfaceEdges()});
+    all.insert(all.end(), indices.begin(), indices.end());
+  };
+  if (mesh.levels.empty() || options.every_triangle) {
+    add(mesh.indices, 0);
+  } else {
+    for (const MeshLevel& level : mesh.levels) {
+      add(level.indices, level.error);
+    }
   }
+  const std::vector<GpuVertex> vertices = vertices_of(mesh);
+  copy.vertices = uploaded(device, commands, vertices.data(), vertices.size() * sizeof(GpuVertex),
+                           VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+  copy.indices = uploaded(device, commands, all.data(), all.size() * sizeof(std::uint32_t),
+                          VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
   return copy;
 }
 
@@ -130,14 +101,14 @@ bool MeshCache::touch(const std::shared_ptr<const MeshData>& mesh) {
 }
 
 Status MeshCache::add(const Device& device, Commands& commands,
-                      const std::shared_ptr<const MeshData>& mesh, const MeshDetail& detail) {
+                      const std::shared_ptr<const MeshData>& mesh) {
   if (const Status checked = check_mesh(*mesh); !checked) {
     return checked;
   }
   Entry entry;
   entry.address = mesh.get();
   entry.mesh = mesh;
-  entry.copy = copy_of(device, commands, *mesh, detail);
+  entry.copy = copy_of(device, commands, *mesh, options_);
   entries_.push_back(std::move(entry));
   return {};
 }
@@ -146,9 +117,8 @@ void MeshCache::end_frame() {
   for (Entry& entry : entries_) {
     ++entry.idle_frames;
   }
-  std::erase_if(entries_, [this](const Entry& entry) {
-    const bool drawing = entry.idle_frames <= frames_in_flight_;
-    return !drawing && (entry.mesh.expired() || entry.idle_frames > kMaxIdleFrames);
+  std::erase_if(entries_, [](const Entry& entry) {
+    return entry.idle_frames > 1 && (entry.mesh.expired() || entry.idle_frames > kMaxIdleFrames);
   });
 }
 

@@ -63,7 +63,9 @@ void fill(RgbaImage& image, const RgbaImage* background) {
   }
 }
 
-void fill(LabelImage& image) { std::fill(image.labels.begin(), image.labels.end(), 0); }
+void fill(LabelImage& image, const RgbaImage*) {
+  std::fill(image.labels.begin(), image.labels.end(), 0);
+}
 
 void take(const std::byte* drawn, std::span<const PixelRect> regions, RgbaImage& image) {
   take_regions(drawn, regions, image.width_px, image.pixels.data());

@@ -17,8 +17,8 @@ void resize(LabelImage& image, int width_px, int height_px);
 
 /// Opaque: the background, or black without one.
 void fill(RgbaImage& image, const RgbaImage* background);
-/// No hologram.
-void fill(LabelImage& image);
+/// No hologram, whatever the background.
+void fill(LabelImage& image, const RgbaImage* background);
 
 /// `drawn` holds a whole image, of which only the regions are valid.
 void take(const std::byte* drawn, std::span<const PixelRect> regions, RgbaImage& image);

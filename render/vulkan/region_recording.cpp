@@ -254,18 +254,18 @@ bool RegionRecording::mesh_stage(Stage stage, const std::vector<MeshDraw>& meshe
         !shows(bounds, stage, bound)) {
       continue;
     }
-    const MeshLevel& level = copy->levels[number];
+    const GpuMesh::Level& level = copy->levels[number];
     const std::uint32_t style = item->style == MeshStyle::kRim ? 1 : 0;
     const Colour& tint = item->tint;
     push({item->world_from_model,
           item->colour,
           {tint.r, tint.g, tint.b, 0},
           {item->label, 0, style, 0}});
-    const VkBuffer vertices = level.vertices.get();
+    const VkBuffer vertices = copy->vertices.get();
     const VkDeviceSize offset = 0;
     vkCmdBindVertexBuffers(commands_, 0, 1, &vertices, &offset);
-    vkCmdBindIndexBuffer(commands_, level.indices.get(), 0, VK_INDEX_TYPE_UINT32);
-    vkCmdDrawIndexed(commands_, level.index_count, 1, 0, 0, 0);
+    vkCmdBindIndexBuffer(commands_, copy->indices.get(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdDrawIndexed(commands_, level.index_count, 1, level.first_index, 0, 0);
   }
   return bound;
 }

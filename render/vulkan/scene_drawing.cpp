@@ -1,10 +1,12 @@
 #include "render/vulkan/scene_drawing.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <limits>
 #include <utility>
 
+#include "render/decimated.h"
 #include "render/float3.h"
 #include "render/frame/scene_check.h"
 #include "render/projection.h"
@@ -82,16 +84,15 @@ FrameSlot::FrameSlot(const Device& device)
              BufferPlace::kUpload) {}
 
 SceneDrawing::SceneDrawing(const RendererOptions& options, const Device& device,
-                           VkPhysicalDevice physical, std::size_t slots, bool has_side_slot)
+                           VkPhysicalDevice physical)
     : options_(options),
       device_(device),
       cache_(device, physical, options.cache_folder.value_or(user_cache_folder())),
-      frame_slots_(slots),
-      meshes_(static_cast<int>(slots) - 1) {
-  for (std::size_t i = 0; i < slots + (has_side_slot ? 1 : 0); ++i) {
-    slots_.push_back(std::make_unique<FrameSlot>(device));
-  }
+      uploads_(device),
+      meshes_({covers(), options.every_triangle}) {
   upload_atlas();
+  upload_blank();
+  choose_views_a_pass();
 }
 
 void SceneDrawing::upload_atlas() {
@@ -107,72 +108,54 @@ void SceneDrawing::upload_atlas() {
                        BufferPlace::kUpload);
   staging.write(font_.atlas().data(), font_.atlas().size());
   const PixelRect all{0, 0, static_cast<int>(spec.width), static_cast<int>(spec.height)};
-  fill_image(slot().commands.begin(), {staging, atlas_, {spec.width, spec.height}, 1, 1, 1},
-             {&all, 1});
-  slot().commands.run();
-  for (const auto& slot : slots_) {
-    slot->bindings.bind_atlas(atlas_);
-  }
+  fill_image(uploads_.begin(), {staging, atlas_, {spec.width, spec.height}, 1, 1, 1}, {&all, 1});
+  uploads_.run();
 }
 
-void SceneDrawing::bind_background(const DeviceImage& background) {
-  for (const auto& slot : slots_) {
-    slot->bindings.bind_background(background);
-  }
+void SceneDrawing::upload_blank() {
+  ImageSpec spec;
+  spec.format = kColourFormat;
+  spec.width = spec.height = 1;
+  spec.layers = kMaxViews;
+  spec.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  blank_ = DeviceImage(device_, spec);
+  const std::array<std::byte, 4 * kMaxViews> zeros = {};
+  const Buffer black(device_, zeros.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::kUpload);
+  black.write(zeros.data(), zeros.size());
+  const PixelRect all{0, 0, 1, 1};
+  fill_image(uploads_.begin(), {black, blank_, {1, 1}, 4, kMaxViews, kMaxViews}, {&all, 1});
+  uploads_.run();
 }
 
-void SceneDrawing::bind_drawn(const DeviceImage& drawn) {
-  for (const auto& slot : slots_) {
-    slot->bindings.bind_drawn(drawn);
-  }
+std::unique_ptr<FrameSlot> SceneDrawing::make_slot() const {
+  auto slot = std::make_unique<FrameSlot>(device_);
+  slot->bindings.bind_frames(slot->frames);
+  slot->bindings.bind_atlas(atlas_);
+  slot->bindings.bind_background(blank_);
+  slot->bindings.bind_drawn(blank_);
+  return slot;
 }
 
 void SceneDrawing::choose_views_a_pass() {
   if (options_.eyes_a_pass != EyesAPass::kProbe) {
     views_a_pass_ = options_.eyes_a_pass == EyesAPass::kTwo ? 2 : 1;
-  } else {
-    // Binds buffers of its own.
-    const bool both = draws_both_eyes_whole(device_, slot().commands, slot().bindings, font_,
-                                            drawn_edges(options_) == Edges::kSamples);
-    views_a_pass_ = both ? 2 : 1;
+    return;
   }
-  for (std::size_t i = 0; i < slots_.size(); ++i) {
-    now_ = i;
-    slot().bindings.bind_frames(slot().frames);
-    prepare_data();
-  }
-  now_ = 0;
-}
-
-FrameSlot& SceneDrawing::next_slot() {
-  now_ = (now_ + 1) % frame_slots_;
-  slot().commands.wait();
-  return slot();
-}
-
-void SceneDrawing::wait_for_all() {
-  for (const auto& slot : slots_) {
-    slot->commands.wait();
-  }
-}
-
-bool SceneDrawing::lost() const {
-  return std::any_of(slots_.begin(), slots_.end(),
-                     [](const auto& slot) { return slot->commands.lost(); });
+  const auto slot = make_slot();
+  const bool both = draws_both_eyes_whole(device_, slot->commands, slot->bindings, font_,
+                                          drawn_edges(options_) == Edges::kSamples);
+  views_a_pass_ = both ? 2 : 1;
 }
 
 Status SceneDrawing::add_mesh(const MeshItem& item, const std::string& name) {
-  MeshDetail detail;
-  detail.error = options_.surface_error_m / scale_of(item);
-  detail.edges = covers();
-  if (const Status added = meshes_.add(device_, slot().commands, item.mesh, detail); !added) {
+  if (const Status added = meshes_.add(device_, uploads_, item.mesh); !added) {
     return Error{name + ": " + added.error().message, added.error().code};
   }
   const std::size_t given = item.mesh->indices.size() / 3;
-  if (given > detail.most_triangles) {
-    const std::size_t drawn = meshes_.find(item.mesh)->levels.front().index_count / 3;
-    note(name + ": drawn with " + std::to_string(drawn) + " of its " + std::to_string(given) +
-         " triangles, limit " + std::to_string(detail.most_triangles));
+  const std::size_t limit = MeshDetail{}.most_triangles;
+  if (given > limit && !item.mesh->levels.empty() && !options_.every_triangle) {
+    note(name + ": drawn with " + std::to_string(item.mesh->levels.front().indices.size() / 3) +
+         " of its " + std::to_string(given) + " triangles, limit " + std::to_string(limit));
   }
   return {};
 }
@@ -217,27 +200,57 @@ Status SceneDrawing::take(const Scene& scene) {
   return {};
 }
 
-void SceneDrawing::build(const Scene& scene, const std::vector<View>& views, PixelSize size,
-                         PassKind kind, DrawnViews drawn, HeadTexts head_texts) {
-  const float rad = pixel_rad(views, size);
+void SceneDrawing::build(const Frame& frame, PixelSize size, PassKind kind, DrawnViews drawn,
+                         FrameSlot& slot) {
+  const float rad = pixel_rad(frame.views, size);
   items_.build(
-      scene, views, font_, [this](const MeshItem& item) { return meshes_.find(item.mesh)->box; },
-      kUnseen_px * rad, head_texts);
+      frame.scene, frame.views, font_,
+      [this](const MeshItem& item) { return meshes_.find(item.mesh)->box; }, kUnseen_px * rad,
+      frame.head_texts);
   items_.set_levels([&](const MeshItem& item) {
     const GpuMesh& copy = *meshes_.find(item.mesh);
-    const float error_m = kSurface_px * rad * nearest_m(item, copy.box, views);
+    const float error_m = kSurface_px * rad * nearest_m(item, copy.box, frame.views);
     return copy.level_within(error_m / scale_of(item));
   });
   edges_.clear();
   edges_of_view_ = {};
   if (kind == PassKind::kColour && covers()) {
-    find_edges(views, size, drawn);
+    find_edges(frame.views, size, drawn);
   }
-  prepare_data();
+  write_data(slot);
 }
 
-void SceneDrawing::prepare_data() {
-  FrameSlot& slot = this->slot();
+template <class Use>
+void SceneDrawing::for_each_surface(const Use& use) {
+  std::uint32_t item = 0;
+  for (const auto* meshes : {&items_.translucent_meshes(), &items_.solids()}) {
+    for (const MeshDraw& draw : *meshes) {
+      const GpuMesh* copy = meshes_.find(draw.item->mesh);
+      if (copy != nullptr && !copy->levels.empty()) {
+        use(copy->levels[draw.level].edges,
+            PlacedSurface{item++, meshes == &items_.translucent_meshes(),
+                          draw.item->world_from_model});
+      }
+    }
+  }
+}
+
+void SceneDrawing::find_edges(const std::vector<View>& views, PixelSize size, DrawnViews drawn) {
+  const auto number = [](std::size_t count) { return static_cast<std::uint32_t>(count); };
+  for (std::size_t i = drawn.first; i < drawn.first + drawn.count; ++i) {
+    const std::uint32_t first = number(edges_.size());
+    hidden_edges_.clear();
+    for_each_surface([&](const SurfaceEdges& of, const PlacedSurface& surface) {
+      of.hide(views[i], size, surface, edge_scratch_, hidden_edges_);
+    });
+    for_each_surface([&](const SurfaceEdges& of, const PlacedSurface& surface) {
+      of.seen_by(views[i], size, surface, hidden_edges_, edge_scratch_, edges_);
+    });
+    edges_of_view_[i] = {number(items_.data().size()) + first, number(edges_.size()) - first};
+  }
+}
+
+void SceneDrawing::write_data(FrameSlot& slot) const {
   const std::size_t item_bytes = items_.data().size() * sizeof(Float4);
   const std::size_t bytes = item_bytes + edges_.size() * sizeof(Float4);
   if (slot.data.size() < bytes || slot.data.size() == 0) {
@@ -257,7 +270,8 @@ void SceneDrawing::prepare_data() {
   }
 }
 
-void SceneDrawing::place(std::span<const View> views, std::size_t first, PixelSize size) {
+void SceneDrawing::place(std::span<const View> views, std::size_t first, PixelSize size,
+                         FrameSlot& slot) {
   items_.place(views, size, [this](const MeshItem& item) {
     const GpuMesh* copy = meshes_.find(item.mesh);
     return copy != nullptr ? copy->box : Box{};
@@ -276,7 +290,7 @@ void SceneDrawing::place(std::span<const View> views, std::size_t first, PixelSi
   frame.target = {width, height, 0, 0};
   frame.font = {font_.header().reach, kRimWidth, kNearPlane_m, 0};
   frame.mode = {options_.blend == Blend::kAdditive ? 0u : 1u, 0, 0, 0};
-  slot().frames.write(&frame, sizeof(frame), first * kFrameStride);
+  slot.frames.write(&frame, sizeof(frame), first * kFrameStride);
 }
 
 }  // namespace orthonav::render

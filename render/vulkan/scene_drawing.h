@@ -4,7 +4,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -29,83 +28,64 @@ struct FrameSlot {
   Buffer line_indices;  ///< for as many segments as any frame needed so far
 };
 
+/// What a frame shows; nothing here is owned.
+struct Frame {
+  const Scene& scene;
+  const std::vector<View>& views;
+  std::span<const RgbaImage* const> backgrounds;  ///< none, or one a view
+  HeadTexts head_texts = HeadTexts::kDrawn;
+};
+
 /// Which of a frame's views are drawn.
 struct DrawnViews {
   std::size_t first = 0;
   std::size_t count = kMaxViews;
 };
 
-/// The common part of drawing into own images and into a host's: a scene is checked, its meshes are
-/// uploaded, and it is laid out and written where the shaders read it. Frames alternate between the
-/// slots. After the first frames it allocates nothing.
+/// A scene is checked, its meshes are uploaded, and it is laid out and written where the shaders
+/// read it, wherever the frame ends. After the first frames it allocates nothing.
 class SceneDrawing {
  public:
-  /// Throws Failure if the device fails, as the other calls do. `device` must outlive it. With
-  /// `has_side_slot` there is one slot more, for what is drawn between frames.
-  SceneDrawing(const RendererOptions& options, const Device& device, VkPhysicalDevice physical,
-               std::size_t slots, bool has_side_slot = false);
+  /// Throws Failure if the device fails, as the other calls do. `device` must outlive it.
+  SceneDrawing(const RendererOptions& options, const Device& device, VkPhysicalDevice physical);
 
-  /// The image behind the holograms, for all slots; to be called before the first frame.
-  void bind_background(const DeviceImage& background);
-  /// The image that receives a copy of the drawn one for smoothing edges of surfaces, for all
-  /// slots.
-  void bind_drawn(const DeviceImage& drawn);
-  /// How many views a pass draws, according to the options or to a test of the device; needs a
-  /// background.
-  void choose_views_a_pass();
+  [[nodiscard]] const Device& device() const { return device_; }
+  /// How many views a pass draws, according to the options or to a test of the device.
   [[nodiscard]] std::size_t views_a_pass() const { return views_a_pass_; }
-
-  /// Goes to the next slot and waits until the device has finished with it.
-  FrameSlot& next_slot();
-  [[nodiscard]] FrameSlot& slot() { return *slots_[now_]; }
-  /// Waits until the device has finished with the side slot, and does `work` with that as the
-  /// current slot.
-  template <class Work>
-  Status aside(const Work& work) {
-    struct Back {
-      std::size_t& now;
-      std::size_t before;
-      ~Back() { now = before; }
-    };
-    const Back back{now_, std::exchange(now_, slots_.size() - 1)};
-    slot().commands.wait();
-    return work();
-  }
-  void wait_for_all();
-  [[nodiscard]] bool lost() const;
+  /// One with nothing behind the holograms.
+  [[nodiscard]] std::unique_ptr<FrameSlot> make_slot() const;
 
   /// Checks the scene and uploads its meshes.
   [[nodiscard]] Status take(const Scene& scene);
   /// Whether colour is drawn with computed coverage.
   [[nodiscard]] bool covers() const { return drawn_edges(options_) == Edges::kCoverage; }
-  /// Lays the scene out for these views in images of this size, into the current slot, and finds
-  /// the edges of its meshes in those that are `drawn`, where the pass smooths them.
-  void build(const Scene& scene, const std::vector<View>& views, PixelSize size, PassKind kind,
-             DrawnViews drawn, HeadTexts head_texts = HeadTexts::kDrawn);
+  /// Lays the scene out for its views in images of this size, into the slot, and finds the edges of
+  /// its meshes in those that are `drawn`, where the pass smooths them.
+  void build(const Frame& frame, PixelSize size, PassKind kind, DrawnViews drawn, FrameSlot& slot);
   /// The edges of the pass whose first view is `first`.
   [[nodiscard]] EdgeRanges edges(std::size_t first) const {
     return {edges_of_view_[first], edges_of_view_[(first + 1) % kMaxViews]};
   }
   /// For the pass whose first view is `first`: places its items and passes its views to the
   /// shaders.
-  void place(std::span<const View> views, std::size_t first, PixelSize size);
+  void place(std::span<const View> views, std::size_t first, PixelSize size, FrameSlot& slot);
   /// Marks the frame's end, however it ended.
   void end_frame() { meshes_.end_frame(); }
 
   [[nodiscard]] const FrameItems& items() const { return items_; }
   [[nodiscard]] const MeshCache& meshes() const { return meshes_; }
   [[nodiscard]] VkPipelineCache cache() const { return cache_.get(); }
-  /// The same in all slots.
-  [[nodiscard]] VkPipelineLayout layout() const { return slots_.front()->bindings.layout(); }
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   void upload_atlas();
+  void upload_blank();
+  void choose_views_a_pass();
   /// `use` is given the edges of each surface of the frame, and where it is.
   template <class Use>
   void for_each_surface(const Use& use);
   void find_edges(const std::vector<View>& views, PixelSize size, DrawnViews drawn);
-  void prepare_data();
+  void write_data(FrameSlot& slot) const;
   Status add_mesh(const MeshItem& item, const std::string& name);
   void note(std::string line);
   void note_missing_glyphs(const Scene& scene);
@@ -113,9 +93,7 @@ class SceneDrawing {
   RendererOptions options_;
   const Device& device_;
   PipelineCache cache_;
-  std::vector<std::unique_ptr<FrameSlot>> slots_;
-  std::size_t frame_slots_;  ///< the first slots, between which frames alternate
-  std::size_t now_ = 0;
+  Commands uploads_;
   Font font_;
   FrameItems items_;
   std::vector<Float4> edges_;  ///< of meshes in each view, as in SurfaceEdges
@@ -124,6 +102,7 @@ class SceneDrawing {
   EdgeScratch edge_scratch_;
   MeshCache meshes_;
   DeviceImage atlas_;
+  DeviceImage blank_;  ///< of one pixel: shaders want an image bound
   std::vector<std::string> notes_;
   std::vector<char32_t> missing_glyphs_;  ///< noted already
   std::size_t views_a_pass_ = 2;

@@ -1,29 +1,25 @@
 #pragma once
 
-#include <array>
 #include <memory>
-#include <span>
+#include <vector>
 
-#include "base/stopwatch.h"
 #include "render/renderer.h"
+#include "render/vulkan/canvas.h"
 #include "render/vulkan/device.h"
 #include "render/vulkan/instance.h"
 #include "render/vulkan/scene_drawing.h"
 
 namespace orthonav::render {
 
-/// What one eye's part of a frame is drawn from; nothing here is owned.
-struct EyeFrame {
-  const Scene& scene;
-  const std::vector<View>& views;  ///< of both eyes
-  const std::vector<const RgbaImage*>& backgrounds;
-};
-
-/// Draws one frame at a time to completion, with buffers that it reuses.
+/// One device, its own or a host's, and the canvases that it draws on. On a device that is the
+/// processor, the right eye's images are drawn by a second renderer at the same time: a software
+/// rasterizer prepares triangles in one thread and then fills pixels in all of them, so one eye's
+/// triangles are prepared while the other's pixels are filled
+/// (docs/decisions/0114-a-device-for-each-eye.md).
 class VulkanRenderer final : public Renderer {
  public:
-  /// `options` must have been checked. Throws Failure.
-  explicit VulkanRenderer(const RendererOptions& options);
+  /// `options` must have been checked. The host, if there is one, makes the device. Throws Failure.
+  VulkanRenderer(const RendererOptions& options, VulkanHost* host);
   ~VulkanRenderer() override;
   VulkanRenderer(const VulkanRenderer&) = delete;
   VulkanRenderer& operator=(const VulkanRenderer&) = delete;
@@ -33,11 +29,16 @@ class VulkanRenderer final : public Renderer {
               std::vector<RgbaImage>& images) override;
   Status draw_labels(const Scene& scene, const std::vector<View>& views,
                      std::vector<LabelImage>& images) override;
-  /// Begins to draw one eye's image of a frame. Without an Error, `end_eye` must follow with the
-  /// same frame and image before anything else is drawn.
-  Status begin_eye(const EyeFrame& frame, std::size_t eye, RgbaImage& image);
-  /// Waits for the image that was begun.
-  Status end_eye(const EyeFrame& frame, std::size_t eye, RgbaImage& image);
+  [[nodiscard]] VulkanObjects objects() const override;
+  [[nodiscard]] int format_score(std::int64_t format) const override;
+  [[nodiscard]] int depth_format_score(std::int64_t format) const override;
+  Status use(const EyeImages& images) override;
+  Status prepare(const Scene& scene) override;
+  Status draw(const Scene& scene, const std::vector<View>& views,
+              std::span<const std::uint32_t> indices, HeadTexts head_texts) override;
+  Status draw_panel(const Scene& scene, const View& view, std::uint32_t index) override;
+  Status finish() override;
+  [[nodiscard]] bool lost() const override { return lost_; }
   [[nodiscard]] const DeviceInfo& device() const override { return info_; }
   [[nodiscard]] FrameTiming last_timing() const override { return timing_; }
   [[nodiscard]] const std::vector<std::string>& validation_messages() const override {
@@ -48,28 +49,20 @@ class VulkanRenderer final : public Renderer {
  private:
   template <class Work>
   Status attempt(const Work& work);
-  template <class Work>
-  Status guarded(const Work& work);
-  /// Fills the pictures with what is behind the holograms while the device draws.
-  template <class Picture, class Fill>
-  Status draw_into(std::vector<Picture>& pictures, PassKind kind, const Scene& scene,
-                   const std::vector<View>& views, const std::vector<const RgbaImage*>& backgrounds,
-                   const Fill& fill_picture);
-  /// What was taken.
-  void submit(PassKind kind, const EyeFrame& frame, DrawnViews drawn);
-  /// Waits for what was submitted.
-  void finish();
-  /// Checks everything and uploads the scene's meshes.
-  Status take_input(const Scene& scene, const std::vector<View>& views,
-                    const std::vector<const RgbaImage*>& backgrounds);
-  const FramePass& pass_for(PassKind kind, std::size_t views);
-  void record_pass(VkCommandBuffer batch, PassKind kind, std::span<const View> views,
-                   std::span<const RgbaImage* const> backgrounds, std::size_t first);
-  void upload_backgrounds(VkCommandBuffer batch, std::span<const RgbaImage* const> backgrounds,
-                          std::size_t first);
-  void upload_blank_background();
-  [[nodiscard]] PixelSize size() const { return {options_.width_px, options_.height_px}; }
-  [[nodiscard]] std::size_t image_bytes() const;
+  template <class Picture>
+  Status draw_pictures(PassKind kind, const Frame& frame, std::vector<Picture>& pictures);
+  /// Begins to draw some views of a frame. Without an Error, `end` must follow before anything else
+  /// is drawn.
+  template <class Picture>
+  Status begin(PassKind kind, const Frame& frame, DrawnViews drawn, std::vector<Picture>& pictures,
+               FrameTiming& timing);
+  /// Waits for what was begun.
+  template <class Picture>
+  Status end(const Frame& frame, DrawnViews drawn, std::vector<Picture>& pictures,
+             FrameTiming& timing);
+  [[nodiscard]] bool offers(std::int64_t format, VkFormatFeatureFlags feature) const;
+  [[nodiscard]] Status check_images(const EyeImages& images) const;
+  void release();
 
   RendererOptions options_;
   Instance instance_;
@@ -77,14 +70,13 @@ class VulkanRenderer final : public Renderer {
   DeviceInfo info_;
   Device device_;
   SceneDrawing drawing_;
-  DeviceImage background_;
-  DeviceImage drawn_so_far_;  ///< where coverage is computed
-  Buffer background_staging_;
-  Buffer readback_;
-  std::array<std::unique_ptr<FramePass>, 4> passes_;  ///< by kind and number of views
-  std::array<std::vector<PixelRect>, 2> drawn_;       ///< regions of each view
+  std::unique_ptr<Canvas> pictures_;  ///< images that are read back, from the first one on
+  std::unique_ptr<Canvas> eyes_;      ///< images of others, while there are any
+  std::unique_ptr<Canvas> panel_;     ///< the same
+  std::vector<View> panel_view_;
+  bool eyes_apart_;
+  std::unique_ptr<VulkanRenderer> right_;  ///< with its first frame
   FrameTiming timing_;
-  Stopwatch phase_;  ///< since the last time that was put into `timing_`
   bool lost_ = false;
 };
 

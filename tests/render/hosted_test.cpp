@@ -24,18 +24,18 @@ struct Hosted {
     options.messages = validation.sink();
     options.eyes_a_pass = eyes;
     options.cache_folder = "";
-    auto made = HostedRenderer::create(options, host);
+    auto made = Renderer::create(options, host);
     EXPECT_TRUE(test::is_ok(made));
     renderer = std::move(*made);
   }
   SilentValidation validation;
   TestHost host;
-  std::unique_ptr<HostedRenderer> renderer;
+  std::unique_ptr<Renderer> renderer;
 };
 
 std::vector<View> eyes() { return stereo_pair(TestRenderer::straight_ahead()); }
 
-void draw(HostedRenderer& renderer, const Scene& scene, const std::vector<View>& views,
+void draw(Renderer& renderer, const Scene& scene, const std::vector<View>& views,
           const std::vector<std::uint32_t>& images) {
   ASSERT_TRUE(test::is_ok(renderer.prepare(scene)));
   ASSERT_TRUE(test::is_ok(renderer.draw(scene, views, images, HeadTexts::kDrawn)));
@@ -61,9 +61,9 @@ struct Way {
 };
 void PrintTo(const Way& way, std::ostream* out) { *out << way.name; }
 
-class HostedRendererInEveryWay : public ::testing::TestWithParam<Way> {};
+class RendererOnAHostInEveryWay : public ::testing::TestWithParam<Way> {};
 
-TEST_P(HostedRendererInEveryWay, DrawsTheSameBitsAsIntoImages) {
+TEST_P(RendererOnAHostInEveryWay, DrawsTheSameBitsAsIntoImages) {
   const Way way = GetParam();
   const Scene scene = crowded_scene();
   const auto expected = as_drawn_into_images(scene, eyes(), Blend::kAdditive, way.edges);
@@ -78,7 +78,7 @@ TEST_P(HostedRendererInEveryWay, DrawsTheSameBitsAsIntoImages) {
   EXPECT_TRUE(test::is_ok(hosted.renderer->finish()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Hosts, HostedRendererInEveryWay,
+INSTANTIATE_TEST_SUITE_P(Hosts, RendererOnAHostInEveryWay,
                          ::testing::Values(Way{"chains", 1, Edges::kSamples, EyesAPass::kProbe},
                                            Way{"hard", 1, Edges::kHard, EyesAPass::kProbe},
                                            Way{"told_one", 1, Edges::kSamples, EyesAPass::kOne},
@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Hosts, HostedRendererInEveryWay,
 
 /// llvmpipe resolves into the first layer alone and puts lines and triangles there, but a surface
 /// in single samples it draws whole.
-TEST(HostedRenderer, DrawsBothLayersInOnePass) {
+TEST(RendererOnAHost, DrawsBothLayersInOnePass) {
   const Scene scene = sphere_scene(MeshStyle::kRim, {0.2f, 0.8f, 1, 1}, {0, 0, -1}, 301);
   const auto expected = as_drawn_into_images(scene, eyes(), Blend::kAdditive, Edges::kHard);
   Hosted hosted(Blend::kAdditive, Edges::kHard, EyesAPass::kTwo);
@@ -104,7 +104,7 @@ TEST(HostedRenderer, DrawsBothLayersInOnePass) {
   EXPECT_TRUE(test::is_ok(hosted.renderer->finish()));
 }
 
-TEST(HostedRenderer, KeepsTwoFramesInFlightApart) {
+TEST(RendererOnAHost, KeepsTwoFramesInFlightApart) {
   Hosted hosted;
   TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 1);
   ASSERT_TRUE(test::is_ok(hosted.renderer->use(images.targets())));
@@ -126,7 +126,42 @@ TEST(HostedRenderer, KeepsTwoFramesInFlightApart) {
   EXPECT_TRUE(test::is_ok(hosted.renderer->finish()));
 }
 
-TEST(HostedRenderer, TakesSwappedAndLinearFormats) {
+/// Images that are read back are drawn between frames of the host, whose meshes must stay.
+TEST(RendererOnAHost, AlsoReadsImagesBack) {
+  Hosted hosted;
+  TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 1);
+  ASSERT_TRUE(test::is_ok(hosted.renderer->use(images.targets())));
+  const auto red = [] {
+    return sphere_scene(MeshStyle::kSolid, {1, 0, 0, 1}, {-0.1f, 0, -1}, 301);
+  };
+  draw(*hosted.renderer, red(), eyes(), {0, 0});
+  std::vector<RgbaImage> read;
+  for (int frame = 0; frame < 3; ++frame) {
+    ASSERT_TRUE(test::is_ok(hosted.renderer->draw(crowded_scene(), eyes(), {}, read)));
+  }
+  TestRenderer plain(RendererOptions{}.width_px, RendererOptions{}.height_px);
+  std::vector<RgbaImage> expected;
+  ASSERT_TRUE(test::is_ok(plain->draw(crowded_scene(), eyes(), {}, expected)));
+  EXPECT_EQ(read, expected);
+  EXPECT_TRUE(both(images, 0)[0] ==
+              as_drawn_into_images(red(), eyes(), Blend::kAdditive, Edges::kCoverage)[0].pixels);
+  EXPECT_TRUE(test::is_ok(hosted.renderer->finish()));
+}
+
+TEST(RendererOnItsOwnDevice, AlsoDrawsIntoTheImagesOfOthers) {
+  TestRenderer renderer(kWidth_px, kHeight_px);
+  TestImages images(renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 1);
+  const Scene scene = crowded_scene();
+  ASSERT_TRUE(test::is_ok(renderer->use(images.targets())));
+  draw(*renderer, scene, eyes(), {1, 1});
+  const auto expected = as_drawn_into_images(scene, eyes(), Blend::kAdditive, Edges::kCoverage);
+  const auto drawn = both(images, 1);
+  EXPECT_TRUE(drawn[0] == expected[0].pixels);
+  EXPECT_TRUE(drawn[1] == expected[1].pixels);
+  EXPECT_TRUE(test::is_ok(renderer->finish()));
+}
+
+TEST(RendererOnAHost, TakesSwappedAndLinearFormats) {
   const Scene scene = crowded_scene();
   const auto expected = as_drawn_into_images(scene, eyes(), Blend::kAdditive, Edges::kCoverage);
   Hosted hosted;
@@ -146,7 +181,7 @@ TEST(HostedRenderer, TakesSwappedAndLinearFormats) {
   EXPECT_TRUE(test::is_ok(hosted.renderer->finish()));
 }
 
-TEST(HostedRenderer, WritesOpacityAsAlphaForACompositor) {
+TEST(RendererOnAHost, WritesOpacityAsAlphaForACompositor) {
   Scene scene = sphere_scene(MeshStyle::kSolid, {1, 1, 1, 1}, {0, 0, -1}, 301);
   scene.triangles.push_back(
       {501, {Float3{-0.3f, -0.1f, -1}, {-0.1f, -0.1f, -1}, {-0.2f, 0.1f, -1}}, {1, 0, 0, 0.5f}});
@@ -169,24 +204,24 @@ TEST(HostedRenderer, WritesOpacityAsAlphaForACompositor) {
   EXPECT_TRUE(test::is_ok(hosted.renderer->finish()));
 }
 
-TEST(HostedRenderer, SaysWhatAHostAsksThatCannotBe) {
+TEST(RendererOnAHost, SaysWhatAHostAsksThatCannotBe) {
   RendererOptions options;
   options.cache_folder = "";
   TestHost old;
   old.allowed = {VulkanVersion{1, 0}, VulkanVersion{1, 0}};
-  EXPECT_THAT(test::error_of(HostedRenderer::create(options, old)), HasSubstr("Vulkan 1.0"));
+  EXPECT_THAT(test::error_of(Renderer::create(options, old)), HasSubstr("Vulkan 1.0"));
   TestHost refusing;
   refusing.refusal = "the runtime has no device";
-  const auto refused = HostedRenderer::create(options, refusing);
+  const auto refused = Renderer::create(options, refusing);
   EXPECT_EQ(test::error_of(refused), "the runtime has no device");
   EXPECT_EQ(refused.error().code, ErrorCode::kUnavailable) << "as the host gave it";
   TestHost young;
   young.allowed = {VulkanVersion{1, 2}, VulkanVersion{1, 3}};
-  EXPECT_TRUE(test::is_ok(HostedRenderer::create(options, young)));
+  EXPECT_TRUE(test::is_ok(Renderer::create(options, young)));
   EXPECT_EQ(young.asked_version, VK_API_VERSION_1_2);
 }
 
-TEST(HostedRenderer, RefusesImagesThatDoNotFit) {
+TEST(RendererOnAHost, RefusesImagesThatDoNotFit) {
   Hosted hosted;
   TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 1);
   EyeImages targets = images.targets();

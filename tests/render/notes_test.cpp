@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <array>
+
 #include "render/decimated.h"
 #include "render/float3.h"
 #include "render/shapes.h"
@@ -73,15 +75,25 @@ float farthest_from_sphere(const MeshData& mesh, float radius_m) {
   return worst;
 }
 
-TEST(Simplified, LeavesOutTrianglesAndKeepsTheShape) {
+/// The triangles of a level alone.
+MeshData level_of(const MeshData& mesh, std::size_t level) {
+  MeshData out = mesh;
+  out.indices = mesh.levels.at(level).indices;
+  return out;
+}
+
+TEST(Prepared, LeavesOutTrianglesAndKeepsTheShape) {
   const MeshData fine = make_sphere(0.035f, 180, 90);
-  const MeshData fewer = simplified(fine, 1000, 2e-5f);
+  const auto finest = [&](std::size_t enough, float error) {
+    return level_of(*prepared(fine, {.error = error, .enough_triangles = enough}), 0);
+  };
+  const MeshData fewer = finest(1000, 2e-5f);
   EXPECT_LT(fewer.indices.size(), fine.indices.size() * 2 / 3);
   // The error is a mean over triangles; one alone may be farther off.
   EXPECT_LT(farthest_from_sphere(fewer, 0.035f), 8e-5f);
-  EXPECT_GT(farthest_from_sphere(simplified(fine, 100, 1e-3f), 0.035f), 8e-5f) << "the twin";
-  EXPECT_EQ(simplified(fine, 1000, 0).indices.size(), fine.indices.size());
-  EXPECT_EQ(simplified(fine, 1'000'000, 1).indices.size(), fine.indices.size());
+  EXPECT_GT(farthest_from_sphere(finest(100, 1e-3f), 0.035f), 8e-5f) << "the twin";
+  EXPECT_EQ(finest(1000, 0).indices.size(), fine.indices.size());
+  EXPECT_EQ(finest(1'000'000, 1).indices.size(), fine.indices.size());
 }
 
 TEST(Decimated, MakesLooseTrianglesFewerToo) {
@@ -98,42 +110,78 @@ TEST(Decimated, MakesLooseTrianglesFewerToo) {
   EXPECT_LT(farthest_from_sphere(fewer, 0.035f), 5e-4f);
 }
 
-TEST(Coarser, HasTheTrianglesAskedForAndSaysHowFarItIsOff) {
+TEST(Prepared, SaysHowFarEachLevelIsOff) {
   const MeshData fine = make_sphere(0.035f, 60, 30);
-  const std::size_t half = fine.indices.size() / 6;
-  for (const bool joined : {false, true}) {
-    const Coarser fewer = coarser(fine, half, joined);
-    EXPECT_LE(fewer.mesh.indices.size(), 3 * half + 30);
-    EXPECT_GT(fewer.error_m, 1e-6f);
-    EXPECT_LT(farthest_from_sphere(fewer.mesh, 0.035f),
-              farthest_from_sphere(fine, 0.035f) + 4 * fewer.error_m);
+  for (const std::size_t enough : {std::size_t{100}, std::size_t{14'000}}) {
+    const auto mesh = prepared(fine, {.error = 0, .enough_triangles = enough});
+    ASSERT_EQ(mesh->levels.size(), 4u);
+    EXPECT_EQ(mesh->levels[0].error, 0);
+    constexpr std::array kShares = {1.0, 0.7, 0.5, 0.3};
+    for (std::size_t i = 1; i < mesh->levels.size(); ++i) {
+      const MeshLevel& level = mesh->levels[i];
+      EXPECT_LE(static_cast<double>(level.indices.size()),
+                kShares[i] * static_cast<double>(fine.indices.size()) + 30);
+      EXPECT_GT(level.error, std::max(mesh->levels[i - 1].error, 1e-6f));
+      EXPECT_LT(farthest_from_sphere(level_of(*mesh, i), 0.035f),
+                farthest_from_sphere(fine, 0.035f) + 4 * level.error);
+    }
   }
-  EXPECT_TRUE(coarser({}, 10, true).mesh.indices.empty());
+  EXPECT_TRUE(prepared({})->levels.empty());
 }
 
-TEST(Coarser, IsChosenByTheErrorThatIsAllowed) {
+TEST(Prepared, LeavesABadMeshToTheRenderer) {
+  MeshData mesh = make_sphere(0.035f);
+  mesh.indices[5] = 100'000;
+  EXPECT_TRUE(prepared(mesh)->levels.empty());
+}
+
+TEST(Levels, AreChosenByTheErrorThatIsAllowed) {
   SilentValidation validation;
   const Instance instance(true, validation.sink());
   const Device device(choose_device(instance, test::test_device()).value());
   Commands commands(device);
+  const auto mesh = prepared(make_sphere(0.05f, 60, 30));
   MeshCache cache;
-  const auto mesh = std::make_shared<const MeshData>(make_sphere(0.05f, 60, 30));
-  MeshDetail detail;
-  detail.error = 2e-5f;
-  EXPECT_TRUE(test::is_ok(cache.add(device, commands, mesh, detail)));
+  EXPECT_TRUE(test::is_ok(cache.add(device, commands, mesh)));
   const GpuMesh& copy = *cache.find(mesh);
   ASSERT_EQ(copy.levels.size(), 4u);
-  EXPECT_EQ(copy.levels[0].index_count, mesh->indices.size());
-  EXPECT_EQ(copy.levels[0].error, 0);
-  for (std::size_t i = 1; i < copy.levels.size(); ++i) {
-    EXPECT_LT(copy.levels[i].index_count, copy.levels[i - 1].index_count);
-    EXPECT_GT(copy.levels[i].error, copy.levels[i - 1].error);
+  for (std::size_t i = 0; i < copy.levels.size(); ++i) {
+    EXPECT_EQ(copy.levels[i].index_count, mesh->levels[i].indices.size());
     EXPECT_EQ(copy.level_within(copy.levels[i].error), i);
   }
-  EXPECT_EQ(copy.level_within(0), 0u);
-  const auto whole = std::make_shared<const MeshData>(*mesh);
-  EXPECT_TRUE(test::is_ok(cache.add(device, commands, whole, {})));
-  EXPECT_EQ(cache.find(whole)->levels.size(), 1u) << "every triangle was asked for";
+  MeshCache whole({.every_triangle = true});
+  EXPECT_TRUE(test::is_ok(whole.add(device, commands, mesh)));
+  EXPECT_EQ(whole.find(mesh)->levels.size(), 1u);
+}
+
+/// From afar, a prepared surface is drawn with fewer of its triangles, any other with all of them:
+/// no frame waits for levels to be made.
+TEST(Levels, AreNeverMadeByDrawing) {
+  Scene scene = sphere_scene(MeshStyle::kSolid, {1, 1, 1, 1}, {0, 0, -3}, 201);
+  const MeshData sphere = make_sphere(0.05f, 60, 30);
+  const auto pixels = [&](std::shared_ptr<const MeshData> mesh, bool every_triangle) {
+    RendererOptions options;
+    options.width_px = options.height_px = 128;
+    options.device = test::test_device();
+    options.cache_folder = "";
+    options.every_triangle = every_triangle;
+    scene.meshes[0].mesh = std::move(mesh);
+    auto renderer = Renderer::create(options);
+    EXPECT_TRUE(test::is_ok(renderer));
+    std::vector<RgbaImage> images;
+    EXPECT_TRUE(
+        test::is_ok((*renderer)->draw(scene, {TestRenderer::straight_ahead()}, {}, images)));
+    return images.at(0).pixels;
+  };
+  // Levels that are told from the surface in any picture: most of it is missing.
+  MeshData holed = *prepared(sphere);
+  for (std::size_t i = 1; i < holed.levels.size(); ++i) {
+    holed.levels[i].indices.resize(30);
+  }
+  const auto whole = pixels(std::make_shared<const MeshData>(sphere), true);
+  EXPECT_EQ(pixels(std::make_shared<const MeshData>(sphere), false), whole);
+  EXPECT_EQ(pixels(std::make_shared<const MeshData>(holed), true), whole);
+  EXPECT_NE(pixels(std::make_shared<const MeshData>(holed), false), whole) << "the twin";
 }
 
 TEST(HugeMesh, IsDrawnWithFewerTrianglesAndANote) {
@@ -146,7 +194,7 @@ TEST(HugeMesh, IsDrawnWithFewerTrianglesAndANote) {
   for (std::size_t i = 0; i < bumpy.positions.size(); ++i) {
     bumpy.positions[i] = (1 + 0.002f * static_cast<float>(i % 2)) * bumpy.positions[i];
   }
-  scene.meshes[0].mesh = std::make_shared<MeshData>(bumpy);
+  scene.meshes[0].mesh = prepared(bumpy);
   const LabelImage labels = renderer.labels(scene, view);
   ASSERT_EQ(renderer->notes().size(), 1u);
   EXPECT_THAT(renderer->notes()[0],
@@ -157,18 +205,10 @@ TEST(HugeMesh, IsDrawnWithFewerTrianglesAndANote) {
 }
 
 TEST(HugeMesh, HasNoMoreTrianglesThanTheLimitWhateverTheError) {
-  SilentValidation validation;
-  const Instance instance(true, validation.sink());
-  const Device device(choose_device(instance, test::test_device()).value());
-  Commands commands(device);
-  MeshCache cache;
-  const auto mesh = std::make_shared<const MeshData>(make_sphere(0.05f, 180, 90));
-  MeshDetail detail;
-  detail.enough_triangles = 1000;
-  detail.most_triangles = 4000;
-  EXPECT_TRUE(test::is_ok(cache.add(device, commands, mesh, detail)));
-  EXPECT_LE(cache.find(mesh)->levels.front().index_count, 3 * 4000u);
-  EXPECT_GT(cache.find(mesh)->levels.front().index_count, 3 * 3000u);
+  const auto mesh = prepared(make_sphere(0.05f, 180, 90),
+                             {.error = 0, .enough_triangles = 1000, .most_triangles = 4000});
+  EXPECT_LE(mesh->levels.front().indices.size(), 3 * 4000u);
+  EXPECT_GT(mesh->levels.front().indices.size(), 3 * 3000u);
 }
 
 }  // namespace

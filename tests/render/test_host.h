@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/hosted_renderer.h"
+#include "render/renderer.h"
 #include "tests/support/image_chain.h"
 
 namespace orthonav::render {

@@ -131,7 +131,6 @@ TEST_F(LongBatch, IsLostWhenItOutlastsThePatienceAndOverWhenThatIsTold) {
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.error().code, ErrorCode::kLost);
   }
-  EXPECT_TRUE(commands.lost());
   EXPECT_EQ(reinterpret_cast<const std::uint32_t*>(buffer.mapped())[kBytes / 4 - 1], kValue + 7);
 }
 
@@ -140,7 +139,6 @@ TEST_F(LongBatch, IsNotLostWithPatience) {
   const Buffer buffer(device_, kBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::kReadback);
   record(commands, buffer);
   EXPECT_NO_THROW(commands.run());
-  EXPECT_FALSE(commands.lost());
 }
 
 }  // namespace

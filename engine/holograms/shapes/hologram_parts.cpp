@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "render/decimated.h"
 #include "render/shapes.h"
 
 namespace orthonav::engine {
@@ -20,7 +21,7 @@ namespace {
 
 /// One immutable sphere for all, so that the renderer keeps one copy of it.
 const std::shared_ptr<const render::MeshData>& unit_sphere() {
-  static const auto mesh = std::make_shared<const render::MeshData>(render::make_sphere(1.0f));
+  static const auto mesh = render::prepared(render::make_sphere(1.0f));
   return mesh;
 }
 

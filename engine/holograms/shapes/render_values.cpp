@@ -1,7 +1,9 @@
 #include "engine/holograms/shapes/render_values.h"
 
 #include <glm/gtc/type_ptr.hpp>
+#include <utility>
 
+#include "render/decimated.h"
 #include "render/shapes.h"
 
 namespace orthonav::engine {
@@ -32,15 +34,15 @@ render::View hololens2_view(const Transform<World, Eye>& world_from_eye) {
 }
 
 std::shared_ptr<const render::MeshData> mesh_data(const nav::TriangleMesh& mesh) {
-  auto data = std::make_shared<render::MeshData>();
+  render::MeshData data;
   for (const Vec3 v : mesh.vertices_m) {
-    data->positions.push_back(to_float3(v));
+    data.positions.push_back(to_float3(v));
   }
   for (const auto& triangle : mesh.triangles) {
-    data->indices.insert(data->indices.end(), triangle.begin(), triangle.end());
+    data.indices.insert(data.indices.end(), triangle.begin(), triangle.end());
   }
-  data->normals = render::smooth_normals(data->positions, data->indices);
-  return data;
+  data.normals = render::smooth_normals(data.positions, data.indices);
+  return render::prepared(std::move(data));
 }
 
 }  // namespace orthonav::engine

@@ -17,7 +17,7 @@ namespace orthonav::engine {
 [[nodiscard]] render::Matrix4 to_matrix(const std::array<double, 16>& row_major);
 /// The view of an eye in a HoloLens 2.
 [[nodiscard]] render::View hololens2_view(const Transform<World, Eye>& world_from_eye);
-/// With smooth normals.
+/// With smooth normals, and prepared for drawing.
 [[nodiscard]] std::shared_ptr<const render::MeshData> mesh_data(const nav::TriangleMesh& mesh);
 
 }  // namespace orthonav::engine

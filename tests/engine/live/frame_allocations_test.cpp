@@ -21,6 +21,7 @@ using test::ScriptedOperation;
 /// The buffers of one frame, as the frame loop and its snapshots keep them.
 class Frames {
  public:
+  void prepare(const Guidance& guidance) { builder_.prepare(guidance.levels); }
   void make(const Guidance& guidance) {
     builder_.update(guidance);
     builder_.write_shown(guidance, shown_);
@@ -86,6 +87,26 @@ TEST_F(FrameAllocations, AreNoneWhileVerifying) {
   EXPECT_EQ(allocations_of([&] { frames.make(g); }), 0u);
   EXPECT_TRUE(frames.shows(HologramKind::kVertebra));
   EXPECT_TRUE(frames.shows(HologramKind::kCheckPoint));
+}
+
+/// The bone first shows itself here; its surface is an operation's to prepare, not a frame's.
+TEST_F(FrameAllocations, OfTheBonesSurfaceAreMadeBeforeTheFirstFrame) {
+  ScriptedOperation touched({"L4"}, {}, Verification::kByTouch);
+  touched.registers_first_level();
+  const Guidance& g = touched.touches({0.0, 0.0204, 0.0});
+  const auto of_the_first_frame = [&](bool prepared) {
+    Frames first;
+    if (prepared) {
+      first.prepare(g);
+    }
+    const std::size_t before = test::allocation_count();
+    first.make(g);
+    EXPECT_TRUE(first.shows(HologramKind::kVertebra));
+    return test::allocation_count() - before;
+  };
+  of_the_first_frame(true);               // makes what all frames of a process share
+  constexpr std::size_t kOfASurface = 8;  // its vectors alone
+  EXPECT_LT(of_the_first_frame(true) + kOfASurface, of_the_first_frame(false));
 }
 
 TEST_F(FrameAllocations, AreNoneWhileAWireIsShown) {

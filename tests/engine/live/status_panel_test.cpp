@@ -44,8 +44,16 @@ class PanelDisplay : public PixelDisplay {
 };
 
 /// A renderer that keeps the texts of the panel instead of drawing them.
-class PanelRenderer : public render::HostedRenderer {
+class PanelRenderer : public render::Renderer {
  public:
+  Status draw(const render::Scene&, const std::vector<render::View>&,
+              const std::vector<const RgbaImage*>&, std::vector<RgbaImage>&) override {
+    return {};
+  }
+  Status draw_labels(const render::Scene&, const std::vector<render::View>&,
+                     std::vector<LabelImage>&) override {
+    return {};
+  }
   [[nodiscard]] VulkanObjects objects() const override { return {}; }
   [[nodiscard]] int format_score(std::int64_t) const override { return 0; }
   [[nodiscard]] int depth_format_score(std::int64_t) const override { return 0; }

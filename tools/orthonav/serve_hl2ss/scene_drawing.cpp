@@ -9,6 +9,7 @@
 #include "engine/holograms/shapes/render_values.h"
 #include "engine/io/image_file.h"
 #include "hal/hl2ss/scene_command.h"
+#include "render/decimated.h"
 #include "render/float3.h"
 #include "render/shapes.h"
 #include "tools/support/eye_in_rig.h"
@@ -55,7 +56,7 @@ class Placed {
 };
 
 std::shared_ptr<const render::MeshData> unit_ball() {
-  static const auto ball = std::make_shared<const render::MeshData>(render::make_sphere(0.5f));
+  static const auto ball = render::prepared(render::make_sphere(0.5f));
   return ball;
 }
 
