@@ -9,12 +9,6 @@ namespace {
 /// Latencies of this many pairs are kept.
 constexpr std::size_t kMaxFigures = 4096;
 
-void copy(const GreyImage& from, GreyImage& to) {
-  to.width_px = from.width_px;
-  to.height_px = from.height_px;
-  to.pixels.assign(from.pixels.begin(), from.pixels.end());
-}
-
 }  // namespace
 
 void PairMailbox::note(std::vector<double>& figures, std::size_t& next, HostTime since) {
@@ -66,8 +60,8 @@ bool PairMailbox::take(StereoFrame& frame) {
   frame.time = newest_.time;
   frame.world_from_rig = newest_.world_from_rig;
   frame.repeats = newest_.repeats;
-  copy(newest_.left, frame.left);
-  copy(newest_.right, frame.right);
+  std::swap(newest_.left, frame.left);
+  std::swap(newest_.right, frame.right);
   note(figures_.take_ms, next_take_, arrived_);
   return true;
 }

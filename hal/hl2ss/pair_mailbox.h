@@ -19,7 +19,7 @@ class PairMailbox {
   void tap(PairTap* tap);
   /// The time of the waiting pair.
   [[nodiscard]] std::optional<Timestamp> waiting() const;
-  /// Copies it into `frame`; false when none waits.
+  /// Exchanges it for `frame`, whose buffers later pairs reuse; false when none waits.
   bool take(StereoFrame& frame);
   /// Reports what went wrong; the waiting pair is discarded.
   void fail(Error trouble);
