@@ -37,7 +37,7 @@ class UntilSecondScrew : public engine::LoopObserver {
   std::function<void()> stop;
   void stepped(const StereoFrame&, const engine::Inputs&,
                const engine::Guidance& guidance) override {
-    if (stop && guidance.step == Step::kGuide && guidance.levels[0].screws[0].done) {
+    if (stop && guidance.step == engine::Step::kGuide && guidance.levels[0].screws[0].done) {
       stop();
     }
   }

@@ -31,7 +31,6 @@ double resident_mib() {
 int measure(double limit_s, hl2ss::VideoProfile profile) {
   const sim::RoomDescription room = orthonav::test::bare_room();
   sim::SimOptions sim;
-  sim.surgeon = false;
   sim.render = false;
   sim.limit_s = limit_s;
   hl2ss::ServerOptions options;

@@ -60,10 +60,10 @@ class Listener : public engine::SessionObserver {
     outcome_.entry_moved_m = moved(level.plan.screws.back().entry);
     outcome_.rotation_rad = rotation_angle_rad(now.rotation(), at_record_->rotation());
   }
-  void happened(Timestamp /*time*/, Step /*from*/, engine::Event /*event*/,
+  void happened(Timestamp /*time*/, engine::Step /*from*/, engine::Event /*event*/,
                 engine::Cell answer) override {
-    if (outcome_.touch && answer.next != Step::kTouchLandmark) {
-      outcome_.guided = outcome_.guided || answer.next == Step::kGuide;
+    if (outcome_.touch && answer.next != engine::Step::kTouchLandmark) {
+      outcome_.guided = outcome_.guided || answer.next == engine::Step::kGuide;
       stop_();
     }
   }

@@ -86,7 +86,7 @@ void measure_resuming(const fs::path& folder) {
                    .value();
     s->session().observe(log.get());
     test::ScriptedSurgeon surgeon(*s, kSamples);
-    while (s->session().current_step() != Step::kRod && surgeon.act()) {
+    while (s->session().current_step() != engine::Step::kRod && surgeon.act()) {
     }
   }
   std::printf("operation.resume: %ju bytes\n",

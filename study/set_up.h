@@ -19,8 +19,8 @@ struct SetUp {
   [[nodiscard]] static SetUp best();
   /// That of Liebmann et al. 2019: docs/published.md.
   [[nodiscard]] static SetUp published();
-  /// Gives the room's surgeon the guidance, the instrument and the reference. Refuses an unknown
-  /// instrument.
+  /// Brings the scripted surgeon into the room, with the guidance, the instrument and the
+  /// reference. Refuses an unknown instrument.
   [[nodiscard]] Status tell(sim::SimOptions& room) const;
 };
 

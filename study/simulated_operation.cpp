@@ -9,6 +9,8 @@
 #include "study/guide_truth.h"
 #include "study/modelled_tracker.h"
 #include "study/sim_scenario.h"
+#include "study/surgeon/scripted_surgeon.h"
+#include "study/surgeon/written_frame.h"
 
 namespace orthonav::engine {
 
@@ -23,12 +25,18 @@ Result<std::unique_ptr<replay::RecordingHeadset>> recorder_of(
   return replay::RecordingHeadset::around(room, folder, {tools_text(tools)});
 }
 
-/// The observers of an operation: they record the truth in the room and the last status line.
+/// The observers of an operation: the surgeon sees what is shown, and the truth in the room and the
+/// last status line are recorded.
 class Watchers {
  public:
-  /// Headset and operation must outlive them; the hooks hear everything after them.
-  Watchers(const sim::SimHeadset& room, AssembledOperation& live, const OperationHooks& hooks)
-      : ground_truth_(room, live.session()), guide_truth_(room, live.session()) {
+  /// Room, headset (the room's as the engine sees it) and operation must outlive them; the hooks
+  /// hear everything after them.
+  Watchers(const sim::SimHeadset& room, Headset& headset, AssembledOperation& live,
+           const OperationHooks& hooks)
+      : to_surgeon_(headset),
+        ground_truth_(room, live.session()),
+        guide_truth_(room, live.session()) {
+    live.observe(&to_surgeon_);
     live.observe(&ground_truth_);
     live.observe(&end_note_);
     for (SessionObserver* hook : hooks.session) {
@@ -49,6 +57,7 @@ class Watchers {
   }
 
  private:
+  sim::ShownToWearer to_surgeon_;
   GroundTruthRecorder ground_truth_;
   GuideTruth guide_truth_;
   EndNote end_note_;
@@ -72,19 +81,15 @@ LoopReport run_until_done(const OperationHooks& hooks, AssembledOperation& live)
 }
 
 /// Assembles the operation around the room's headset as the engine sees it.
-Result<std::unique_ptr<AssembledOperation>> assembled_in(
-    sim::SimHeadset& room, const Method& method, Operation operation,
+Result<std::unique_ptr<AssembledOperation>> assembled_on(
+    Headset& headset, const Method& method, Operation operation,
     const std::vector<nav::ToolGeometry>& tools, const OperationOptions& options,
     const OperationHooks& hooks) {
-  const auto headset = hooks.seen_through ? hooks.seen_through(room) : Result<Headset*>(&room);
-  if (!headset) {
-    return headset.error();
-  }
   AssemblyOptions assembly = options;
   assembly.errors = errors_in(options.sim, options.correct_tag_sizes);
   tell_instruments(options.sim, assembly.session);
   assembly.visibility.cross_and_depth = options.sim.guidance != sim::GuidanceProfile::kPublished;
-  auto live = assemble_operation(**headset, std::move(operation), method, tools, assembly);
+  auto live = assemble_operation(headset, std::move(operation), method, tools, assembly);
   const Status taken = live && hooks.assembled ? hooks.assembled(**live) : Status();
   return taken ? std::move(live) : taken.error();
 }
@@ -96,12 +101,16 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   if (!tools) {
     return tools.error();
   }
-  auto assembled = assembled_in(room, method, std::move(operation), *tools, options, hooks);
+  const auto headset = hooks.seen_through ? hooks.seen_through(room) : Result<Headset*>(&room);
+  if (!headset) {
+    return headset.error();
+  }
+  auto assembled = assembled_on(**headset, method, std::move(operation), *tools, options, hooks);
   if (!assembled) {
     return assembled.error();
   }
   AssembledOperation& live = **assembled;
-  Watchers watchers(room, live, hooks);
+  Watchers watchers(room, **headset, live, hooks);
   auto recorder = recorder_of(room, options.record_folder, *tools);
   if (!recorder) {
     return recorder.error();
@@ -129,6 +138,7 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
 
 sim::SimOptions sim_options(const OperationOptions& options) {
   sim::SimOptions sim = options.sim;
+  sim.surgeon = sim::ScriptedSurgeon::bring;
   sim.relies_on_reference = options.use_reference;
   sim.render = sim.render && options.measurement == Measurement::kPixels && !options.navigation;
   return sim;

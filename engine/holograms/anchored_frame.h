@@ -4,7 +4,7 @@
 
 #include "base/transform.h"
 #include "engine/holograms/labels/glare_patches.h"
-#include "hal/api/display.h"
+#include "engine/session/shown_frame.h"
 #include "render/scene.h"
 
 namespace orthonav::engine {

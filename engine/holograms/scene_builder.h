@@ -11,8 +11,8 @@
 #include "engine/holograms/shown_frame.h"
 #include "engine/holograms/visibility.h"
 #include "engine/session/guidance.h"
+#include "engine/session/shown_frame.h"
 #include "engine/session/text/wording.h"
-#include "hal/api/display.h"
 #include "render/scene.h"
 
 namespace orthonav::engine {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/holograms/visibility.h"
-#include "hal/api/display.h"
+#include "engine/session/shown_frame.h"
 
 namespace orthonav::engine {
 

@@ -151,13 +151,19 @@ Status FrameLoop::wait_for_pair(SnapshotQueue* queue, LoopReport& report) {
 /// The display time of a frame submitted now.
 Timestamp FrameLoop::next_display_time() {
   const Timestamp now = headset_->clock().now();
-  const Timestamp display_time = headset_->display().predicted_display_time(now);
-  ahead_ns_ = (display_time - now).count();
-  return display_time;
+  const Duration latency = headset_->display_latency();
+  ahead_ns_ = latency.count();
+  return now + latency;
 }
 
-/// Shows, in the same way as every frame, guidance that no longer guides. If the display fails here
-/// it may keep showing the old frame, which can then only be reported.
+void FrameLoop::show() {
+  last_display_time_ = std::max(last_display_time_, shown_.display_time);
+  for (LoopObserver* observer : observers_) {
+    observer->shown(shown_);
+  }
+}
+
+/// Shows, in the same way as every frame, guidance that no longer guides.
 void FrameLoop::take_back(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report) {
   for (LoopObserver* observer : observers_) {
     observer->withdrawn(guidance);
@@ -165,11 +171,7 @@ void FrameLoop::take_back(const Guidance& guidance, SnapshotQueue* queue, LoopRe
   builder_.update(guidance);
   builder_.write_shown(guidance, shown_);
   shown_.display_time = std::max(guidance.display_time, last_display_time_ + Duration(1));
-  last_display_time_ = shown_.display_time;
-  if (const Status shown = headset_->display().shown(shown_); !shown) {
-    ++report.failures;
-    report.last_failure = shown.error().message;
-  }
+  show();
   if (queue) {
     capture(*queue, guidance, report.displayed);
   }
@@ -250,7 +252,7 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   inputs.no_clicker = no_clicker_;
   count_stall(inputs.stalled, report);
   // A frame will be submitted from now on; the images took a while to arrive.
-  inputs.display_time = headset_->display().predicted_display_time(heard_at_);
+  inputs.display_time = heard_at_ + headset_->display_latency();
   const Guidance& guidance = session_.step(frame_, inputs);
   report.last_frame = frame_.time;
   if (!first_frame_) {
@@ -263,16 +265,10 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   builder_.look_at(sink_ ? sink_->gaze() : std::nullopt);
   builder_.update(guidance, std::max(guidance.display_time, next_display_time()));
   builder_.write_shown(guidance, shown_);
-  const Status shown = headset_->display().shown(shown_);
+  show();
   report.step_wall_ms.add(watch.elapsed_ms());
-  if (const Status over = tolerate(shown, display_errors_, report); !over) {
-    return over;
-  }
   guiding_since_ = frame_.time;
-  last_display_time_ = std::max(last_display_time_, shown_.display_time);
-  if (shown) {
-    count_displayed(guidance, queue, report);
-  }
+  count_displayed(guidance, queue, report);
   return {};
 }
 

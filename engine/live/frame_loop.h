@@ -21,6 +21,8 @@ class LoopObserver {
   virtual ~LoopObserver() = default;
   virtual void stepped(const StereoFrame& /*frame*/, const Inputs& /*inputs*/,
                        const Guidance& /*guidance*/) {}
+  /// What is on display from its display time on; every frame is shown, also when it takes back.
+  virtual void shown(const ShownFrame& /*frame*/) {}
   /// The cameras delivered an error, and the reason differs from the last one.
   virtual void cameras_failed(const std::string& /*why*/) {}
   /// No pair guides any more: the guidance of the last one was withdrawn, or it is told why again.
@@ -133,6 +135,7 @@ class FrameLoop {
   Result<bool> next_frame(SnapshotQueue* queue, LoopReport& report);
   Status wait_for_pair(SnapshotQueue* queue, LoopReport& report);
   void take_back(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report);
+  void show();
   [[nodiscard]] Timestamp next_display_time();
   // frame_loop_drawing.cpp
   Status loop_and_draw(LoopReport& report);
@@ -185,7 +188,6 @@ class FrameLoop {
   int camera_errors_ = 0;                 ///< in a row, each
   int clicker_errors_ = 0;
   int voice_errors_ = 0;
-  int display_errors_ = 0;
 };
 
 }  // namespace orthonav::engine

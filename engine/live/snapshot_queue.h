@@ -8,7 +8,7 @@
 #include "base/mutex.h"
 #include "base/time.h"
 #include "engine/holograms/labels/glare_patches.h"
-#include "hal/api/shown_status.h"
+#include "engine/session/shown_status.h"
 #include "render/scene.h"
 
 namespace orthonav::engine {

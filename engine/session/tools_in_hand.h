@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/session/guidance.h"
+#include "engine/session/shown_status.h"
 #include "engine/session/watched_tools.h"
-#include "hal/api/shown_status.h"
 #include "nav/tracking/tool.h"
 
 namespace orthonav::engine {

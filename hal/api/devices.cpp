@@ -269,16 +269,4 @@ Status Voice::poll(Timestamp until, std::vector<Phrase>& phrases) {
   return {};
 }
 
-Status Display::shown(const ShownFrame& frame) {
-  if (frame.display_time <= last_display_time_) {
-    return Error{"display: frame for " + in_seconds(frame.display_time) +
-                 " does not come after the one for " + in_seconds(last_display_time_)};
-  }
-  if (Status status = do_shown(frame); !status) {
-    return status;
-  }
-  last_display_time_ = frame.display_time;
-  return {};
-}
-
 }  // namespace orthonav

@@ -15,7 +15,6 @@
 #include "hal/api/camera_model.h"
 #include "hal/api/connection_statistics.h"
 #include "hal/api/described_tools.h"
-#include "hal/api/display.h"
 #include "hal/api/frame_order.h"
 #include "hal/api/measured_tool.h"
 #include "hal/api/repeat_watch.h"
@@ -204,6 +203,7 @@ class DepthCamera;    // hal/api/depth_camera.h
 class Microphone;     // hal/api/microphone.h
 class ObjectDisplay;  // hal/api/object_display.h
 class PixelDisplay;   // hal/api/pixel_display.h
+class Wearer;         // hal/api/wearer.h
 
 /// A headset and its parts, each of which lives as long as the headset.
 class Headset {
@@ -222,7 +222,8 @@ class Headset {
   [[nodiscard]] virtual HeadTracker& head() = 0;
   [[nodiscard]] virtual Clicker& clicker() = 0;
   [[nodiscard]] virtual Voice& voice() = 0;
-  [[nodiscard]] virtual Display& display() = 0;
+  /// From submitting a frame to its light; asked on the thread that takes the pairs alone.
+  [[nodiscard]] virtual Duration display_latency() const = 0;
   /// Its depth cameras, one per stream; may be empty. The same ones at every call.
   [[nodiscard]] virtual std::vector<DepthCamera*> depth_cameras() { return {}; }
   /// Its microphone, if it lets others listen; null otherwise. Listening starts with the first
@@ -232,6 +233,8 @@ class Headset {
   [[nodiscard]] virtual PixelDisplay* pixels() { return nullptr; }
   /// The display, if it draws objects on its own; null otherwise.
   [[nodiscard]] virtual ObjectDisplay* objects() { return nullptr; }
+  /// Who wears the display, if they are simulated; null otherwise.
+  [[nodiscard]] virtual Wearer* wearer() { return nullptr; }
   /// The tools in the pairs, as their source describes them.
   [[nodiscard]] virtual DescribedTools described_tools() const { return {}; }
   /// Statistics of the connection that delivers the pairs; absent if there is none.

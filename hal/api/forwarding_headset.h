@@ -26,22 +26,6 @@ class ForwardingCamera : public StereoCamera {
   StereoCamera& inner_;
 };
 
-/// Forwards to another display; a base class for those that change or watch what it shows. Borrows
-/// the other display.
-class ForwardingDisplay : public Display {
- public:
-  explicit ForwardingDisplay(Display& inner) : inner_(inner) {}
-
- protected:
-  [[nodiscard]] Duration do_latency() const override {
-    return inner_.predicted_display_time(Timestamp{}) - Timestamp{};
-  }
-  Status do_shown(const ShownFrame& frame) override { return inner_.shown(frame); }
-
- private:
-  Display& inner_;
-};
-
 /// Forwards to another headset, part by part; a base class for headsets that replace some parts.
 /// Borrows the other headset.
 class ForwardingHeadset : public Headset {
@@ -56,13 +40,14 @@ class ForwardingHeadset : public Headset {
   [[nodiscard]] HeadTracker& head() override { return inner_.head(); }
   [[nodiscard]] Clicker& clicker() override { return inner_.clicker(); }
   [[nodiscard]] Voice& voice() override { return inner_.voice(); }
-  [[nodiscard]] Display& display() override { return inner_.display(); }
+  [[nodiscard]] Duration display_latency() const override { return inner_.display_latency(); }
   [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override {
     return inner_.depth_cameras();
   }
   [[nodiscard]] Microphone* microphone() override { return inner_.microphone(); }
   [[nodiscard]] PixelDisplay* pixels() override { return inner_.pixels(); }
   [[nodiscard]] ObjectDisplay* objects() override { return inner_.objects(); }
+  [[nodiscard]] Wearer* wearer() override { return inner_.wearer(); }
   [[nodiscard]] DescribedTools described_tools() const override { return inner_.described_tools(); }
   [[nodiscard]] std::optional<ConnectionStatistics> connection() const override {
     return inner_.connection();

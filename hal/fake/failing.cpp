@@ -178,19 +178,11 @@ Status FailingEvents<Device, Event>::do_poll(Timestamp until, std::vector<Event>
 template class FailingEvents<Clicker, ClickerEvent>;
 template class FailingEvents<Voice, Phrase>;
 
-Status FailingDisplay::do_shown(const ShownFrame& frame) {
-  if (fault_at(faults_, call_++)) {
-    return Error{"display: simulated failure"};
-  }
-  return ForwardingDisplay::do_shown(frame);
-}
-
 FailingHeadset::FailingHeadset(Headset& inner, Faults faults)
     : ForwardingHeadset(inner),
       cameras_(inner.cameras(), std::move(faults.camera)),
       head_(inner.head(), std::move(faults.head)),
       clicker_(inner.clicker(), std::move(faults.clicker)),
-      voice_(inner.voice(), std::move(faults.voice)),
-      display_(inner.display(), std::move(faults.display)) {}
+      voice_(inner.voice(), std::move(faults.voice)) {}
 
 }  // namespace orthonav::fake

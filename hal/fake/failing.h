@@ -42,7 +42,6 @@ enum class EventFault {
   kRepeat,    ///< delivered twice
   kGarbage    ///< the clicker's opposite action; a phrase without text
 };
-enum class DisplayFault { kError };
 
 /// Passes on a camera pair except for its faults; `at` counts the calls of next().
 class FailingCamera : public ForwardingCamera {
@@ -94,25 +93,11 @@ class FailingEvents : public Device {
 using FailingClicker = FailingEvents<Clicker, ClickerEvent>;
 using FailingVoice = FailingEvents<Voice, Phrase>;
 
-/// `at` counts the frames shown.
-class FailingDisplay : public ForwardingDisplay {
- public:
-  FailingDisplay(Display& inner, std::vector<Fault<DisplayFault>> faults)
-      : ForwardingDisplay(inner), faults_(std::move(faults)) {}
-
- private:
-  std::vector<Fault<DisplayFault>> faults_;
-  std::int64_t call_ = 0;
-
-  Status do_shown(const ShownFrame& frame) override;
-};
-
 struct Faults {
   std::vector<Fault<CameraFault>> camera{};
   std::vector<Fault<HeadFault>> head{};
   std::vector<Fault<EventFault>> clicker{};
   std::vector<Fault<EventFault>> voice{};
-  std::vector<Fault<DisplayFault>> display{};
 };
 
 /// A headset with faults. The inner one is borrowed.
@@ -124,14 +109,12 @@ class FailingHeadset : public ForwardingHeadset {
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
-  [[nodiscard]] Display& display() override { return display_; }
 
  private:
   FailingCamera cameras_;
   FailingHead head_;
   FailingClicker clicker_;
   FailingVoice voice_;
-  FailingDisplay display_;
 };
 
 }  // namespace orthonav::fake

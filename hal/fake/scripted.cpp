@@ -96,17 +96,6 @@ Status ScriptedVoice::do_poll(Timestamp until, std::vector<Phrase>& phrases) {
   return {};
 }
 
-std::vector<ShownFrame> RememberingDisplay::frames() const {
-  const MutexLock lock(mutex_);
-  return frames_;
-}
-
-Status RememberingDisplay::do_shown(const ShownFrame& frame) {
-  const MutexLock lock(mutex_);
-  frames_.push_back(frame);
-  return {};
-}
-
 FakeHeadset::FakeHeadset(Script script)
     : epoch_ticks_100ns_(script.epoch_ticks_100ns),
       clock_(script.clock_start),
@@ -114,7 +103,7 @@ FakeHeadset::FakeHeadset(Script script)
       head_(std::move(script.head), clock_),
       clicker_(std::move(script.clicker)),
       voice_(std::move(script.voice)),
-      display_(script.display_latency) {
+      display_latency_(script.display_latency) {
   for (DepthScript& depth : script.depth) {
     depth_.push_back(std::make_unique<ScriptedDepth>(std::move(depth), clock_));
   }

@@ -7,7 +7,6 @@
 #include <variant>
 #include <vector>
 
-#include "base/mutex.h"
 #include "hal/api/depth_camera.h"
 #include "hal/api/devices.h"
 
@@ -116,21 +115,6 @@ class ScriptedVoice : public Voice {
   Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override;
 };
 
-/// Stores the frames that it was shown. Thread-safe.
-class RememberingDisplay : public Display {
- public:
-  explicit RememberingDisplay(Duration latency) : latency_(latency) {}
-  [[nodiscard]] std::vector<ShownFrame> frames() const;
-
- private:
-  Duration latency_;
-  mutable Mutex mutex_;
-  std::vector<ShownFrame> frames_ ORTHONAV_GUARDED_BY(mutex_);
-
-  [[nodiscard]] Duration do_latency() const override { return latency_; }
-  Status do_shown(const ShownFrame& frame) override;
-};
-
 /// Everything a scripted headset will ever do.
 struct Script {
   StereoCalibration calibration;
@@ -156,7 +140,7 @@ class FakeHeadset : public Headset {
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
-  [[nodiscard]] RememberingDisplay& display() override { return display_; }
+  [[nodiscard]] Duration display_latency() const override { return display_latency_; }
   [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override { return borrowed(depth_); }
   [[nodiscard]] ManualClock& manual_clock() { return clock_; }
 
@@ -168,7 +152,7 @@ class FakeHeadset : public Headset {
   ScriptedHead head_;
   ScriptedClicker clicker_;
   ScriptedVoice voice_;
-  RememberingDisplay display_;
+  Duration display_latency_;
 };
 
 }  // namespace orthonav::fake

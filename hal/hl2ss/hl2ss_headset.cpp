@@ -163,21 +163,12 @@ class InboxVoice final : public Voice {
   Receiver& receiver_;
 };
 
-class RemoteDisplay final : public Display {
+class RemoteWearer final : public Wearer {
  public:
-  explicit RemoteDisplay(Receiver& receiver) : receiver_(receiver) {}
+  explicit RemoteWearer(Receiver& receiver) : receiver_(receiver) {}
+  void see(const WornFrame& frame) override { receiver_.standin()->send(StandinShown{frame}); }
 
  private:
-  [[nodiscard]] Duration do_latency() const override {
-    const auto told = receiver_.standin() ? receiver_.standin()->display_latency() : std::nullopt;
-    return told.value_or(kDisplayLatency);
-  }
-  Status do_shown(const ShownFrame& frame) override {
-    if (receiver_.standin()) {
-      receiver_.standin()->send(StandinShown{frame});
-    }
-    return {};
-  }
   Receiver& receiver_;
 };
 
@@ -191,7 +182,7 @@ class ConnectedHeadset final : public Hl2ssHeadset {
         cameras_(*receiver_, std::move(calibration)),
         clicker_(*receiver_),
         voice_(*receiver_),
-        display_(*receiver_) {}
+        wearer_(*receiver_) {}
   [[nodiscard]] std::string name() const override { return "hl2ss://" + net::before_port(host_); }
   [[nodiscard]] const Clock& clock() const override { return receiver_->clock(); }
   [[nodiscard]] std::int64_t epoch_ticks_100ns() const override { return epoch_ticks_; }
@@ -199,9 +190,13 @@ class ConnectedHeadset final : public Hl2ssHeadset {
   [[nodiscard]] HeadTracker& head() override { return receiver_->head(); }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
-  [[nodiscard]] Display& display() override { return display_; }
+  [[nodiscard]] Duration display_latency() const override {
+    const auto told = receiver_->standin() ? receiver_->standin()->display_latency() : std::nullopt;
+    return told.value_or(kDisplayLatency);
+  }
   [[nodiscard]] Microphone* microphone() override { return &receiver_->microphone(); }
   [[nodiscard]] ObjectDisplay* objects() override { return receiver_->scene(); }
+  [[nodiscard]] Wearer* wearer() override { return receiver_->standin() ? &wearer_ : nullptr; }
   [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override {
     return depth_ ? std::vector{&depth_->camera()} : std::vector<DepthCamera*>();
   }
@@ -234,7 +229,7 @@ class ConnectedHeadset final : public Hl2ssHeadset {
   Cameras cameras_;
   InboxClicker clicker_;
   InboxVoice voice_;
-  RemoteDisplay display_;
+  RemoteWearer wearer_;
   std::unique_ptr<DepthReceiver> depth_;
   std::string depth_trouble_;
 };

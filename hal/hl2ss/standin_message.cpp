@@ -1,14 +1,14 @@
 #include "hal/hl2ss/standin_message.h"
 
+#include <array>
 #include <string>
 
-#include "hal/hl2ss/standin_shown.h"
 #include "hal/hl2ss/standin_values.h"
 
 namespace orthonav::hl2ss {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x334e534f;  // "OSN3"
+constexpr std::uint32_t kMagic = 0x344e534f;  // "OSN4"
 constexpr std::size_t kHeadBytes = 5;
 
 void write(std::vector<std::uint8_t>& bytes, const StandinHello& hello) {
@@ -32,7 +32,11 @@ void write(std::vector<std::uint8_t>& bytes, const StandinUpTo& up_to) {
 }
 void write(std::vector<std::uint8_t>& /*bytes*/, const StandinEnd& /*end*/) {}
 void write(std::vector<std::uint8_t>& bytes, const StandinShown& shown) {
-  append_frame(bytes, shown.frame);
+  append_time(bytes, shown.frame.display_time);
+  for (const double number : shown.frame.wearer_from_drawn.row_major()) {
+    append(bytes, number);
+  }
+  bytes.insert(bytes.end(), shown.frame.content.begin(), shown.frame.content.end());
 }
 void write(std::vector<std::uint8_t>& bytes, const StandinTook& took) {
   append_time(bytes, took.pair_time);
@@ -73,7 +77,24 @@ Status read(ByteReader& reader, StandinUpTo& up_to) {
 
 Status read(ByteReader& /*reader*/, StandinEnd& /*end*/) { return {}; }
 
-Status read(ByteReader& reader, StandinShown& shown) { return take_frame(reader, shown.frame); }
+Status read(ByteReader& reader, StandinShown& shown) {
+  shown.frame.display_time = take_time(reader);
+  std::array<double, 16> numbers;
+  for (double& number : numbers) {
+    number = reader.take<double>();
+  }
+  if (!reader.ok()) {
+    return {};
+  }
+  const auto wearer_from_drawn = Transform<World, World>::from_row_major(numbers);
+  if (!wearer_from_drawn) {
+    return Error{"stand-in: shown frame: " + wearer_from_drawn.error().message};
+  }
+  shown.frame.wearer_from_drawn = *wearer_from_drawn;
+  const Bytes content = reader.take_bytes(reader.left());
+  shown.frame.content.assign(content.begin(), content.end());
+  return {};
+}
 
 Status read(ByteReader& reader, StandinTook& took) {
   took.pair_time = take_time(reader);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hal/api/devices.h"
+#include "hal/api/wearer.h"
 #include "hal/hl2ss/bytes.h"
 
 namespace orthonav::hl2ss {
@@ -33,7 +34,7 @@ struct StandinUpTo {
 struct StandinEnd {};
 /// Client: what is shown.
 struct StandinShown {
-  ShownFrame frame;
+  WornFrame frame;
 };
 /// Client: it is done with the pair of this time.
 struct StandinTook {

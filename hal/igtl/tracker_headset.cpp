@@ -53,11 +53,6 @@ class StandingHead final : public HeadTracker {
   const PoseReceiver& receiver_;
 };
 
-class NoDisplay final : public Display {
-  [[nodiscard]] Duration do_latency() const override { return kDisplayLatency; }
-  Status do_shown(const ShownFrame& /*frame*/) override { return {}; }
-};
-
 class TrackerHeadset final : public Headset {
  public:
   TrackerHeadset(std::string name, std::unique_ptr<PoseReceiver> receiver,
@@ -72,7 +67,7 @@ class TrackerHeadset final : public Headset {
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return button_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
-  [[nodiscard]] Display& display() override { return display_; }
+  [[nodiscard]] Duration display_latency() const override { return kDisplayLatency; }
   [[nodiscard]] std::optional<ConnectionStatistics> connection() const override {
     return receiver_->statistics();
   }
@@ -84,7 +79,6 @@ class TrackerHeadset final : public Headset {
   StandingHead head_;
   AbsentClicker button_;
   AbsentVoice voice_;
-  NoDisplay display_;
 };
 
 }  // namespace

@@ -108,21 +108,6 @@ class Head : public HeadTracker {
   bool mounted_;
 };
 
-/// The described frames also go to the other headset, where a simulated wearer reads them.
-class Words : public ForwardingDisplay {
- public:
-  Words(Display& inner, const XrDisplay& display, bool mounted)
-      : ForwardingDisplay(inner), display_(display), mounted_(mounted) {}
-
- private:
-  [[nodiscard]] Duration do_latency() const override {
-    return mounted_ ? display_.latency() : ForwardingDisplay::do_latency();
-  }
-
-  const XrDisplay& display_;
-  bool mounted_;
-};
-
 class Composite : public OpenxrHeadset {
  public:
   Composite(std::unique_ptr<Headset> cameras, const RigOnHead& rig)
@@ -132,7 +117,7 @@ class Composite : public OpenxrHeadset {
         cameras_(inner_->cameras(), pixels_, rig.mounted),
         head_(inner_->head(), pixels_, cameras_, rig.mounted),
         clicker_(pixels_, inner_->clicker()),
-        words_(inner_->display(), pixels_, rig.mounted) {}
+        mounted_(rig.mounted) {}
 
   [[nodiscard]] std::string name() const override {
     const std::string runtime = pixels_.name();
@@ -142,7 +127,9 @@ class Composite : public OpenxrHeadset {
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
-  [[nodiscard]] Display& display() override { return words_; }
+  [[nodiscard]] Duration display_latency() const override {
+    return mounted_ ? pixels_.latency() : inner_->display_latency();
+  }
   [[nodiscard]] PixelDisplay* pixels() override { return &pixels_; }
 
  private:
@@ -151,7 +138,7 @@ class Composite : public OpenxrHeadset {
   Cameras cameras_;
   Head head_;
   SharedClicker clicker_;
-  Words words_;
+  bool mounted_;
 };
 
 }  // namespace

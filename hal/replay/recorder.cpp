@@ -404,7 +404,7 @@ Result<std::unique_ptr<RecordingHeadset>> make(Headset& inner, std::unique_ptr<H
   }
   RecordedDevice device;
   device.epoch_ticks_100ns = inner.epoch_ticks_100ns();
-  device.display_latency = inner.display().predicted_display_time(Timestamp{}) - Timestamp{};
+  device.display_latency = inner.display_latency();
   device.clock_start = inner.clock().now();
   device.may_repeat = inner.cameras().may_repeat();
   auto writer =

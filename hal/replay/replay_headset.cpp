@@ -142,17 +142,6 @@ class ReplayVoice : public Voice {
   }
 };
 
-class ReplayDisplay : public Display {
- public:
-  explicit ReplayDisplay(Duration latency) : latency_(latency) {}
-
- private:
-  Duration latency_;
-
-  [[nodiscard]] Duration do_latency() const override { return latency_; }
-  Status do_shown(const ShownFrame&) override { return {}; }
-};
-
 class Replay : public ReplayHeadset {
  public:
   Replay(std::string name, Recording recording, const ReplayOptions& options)
@@ -174,7 +163,7 @@ class Replay : public ReplayHeadset {
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
-  [[nodiscard]] Display& display() override { return display_; }
+  [[nodiscard]] Duration display_latency() const override { return recording_.display_latency; }
   [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override { return borrowed(depth_); }
   void step() override { cameras_.step(); }
   [[nodiscard]] const RecordingSummary& summary() const override { return recording_.summary; }
@@ -194,7 +183,6 @@ class Replay : public ReplayHeadset {
   ReplayHead head_{recording_, progress_};
   ReplayClicker clicker_{recording_};
   ReplayVoice voice_{recording_};
-  ReplayDisplay display_{recording_.display_latency};
   std::vector<std::unique_ptr<ReplayDepth>> depth_;
 };
 

@@ -70,22 +70,19 @@ class SimVoice final : public Voice {
   SimRoom& room_;
 };
 
-class SimDisplay final : public Display {
+class SimWearer final : public Wearer {
  public:
-  explicit SimDisplay(SimRoom& room) : room_(room) {}
-
- private:
-  [[nodiscard]] Duration do_latency() const override { return kDisplayLatency; }
-  Status do_shown(const ShownFrame& frame) override {
+  explicit SimWearer(SimRoom& room) : room_(room) {}
+  void see(const WornFrame& frame) override {
     const MutexLock lock(room_.mutex);
     // The display draws for the pose that it predicted when the frame was submitted.
     const auto believed = room_.head.at(frame.display_time, frame.display_time - kDisplayLatency);
-    if (believed.status == PoseStatus::kLost) {
-      return {};
+    if (believed.status != PoseStatus::kLost) {
+      room_.simulation.show(frame, believed.value);
     }
-    room_.simulation.eyes().show(frame, believed.value);
-    return {};
   }
+
+ private:
   SimRoom& room_;
 };
 
@@ -100,7 +97,7 @@ class SimulatedHeadset final : public SimHeadset {
         head_(room_),
         clicker_(room_),
         voice_(room_),
-        display_(room_) {
+        wearer_(room_) {
     for (const DepthStream stream : options.depth) {
       depth_.push_back(std::make_unique<SimDepth>(
           room_, options,
@@ -114,7 +111,8 @@ class SimulatedHeadset final : public SimHeadset {
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
-  [[nodiscard]] Display& display() override { return display_; }
+  [[nodiscard]] Duration display_latency() const override { return kDisplayLatency; }
+  [[nodiscard]] Wearer* wearer() override { return &wearer_; }
   [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override { return borrowed(depth_); }
 
   // Only the thread that takes the pairs adds to the truth, and only that thread reads it.
@@ -156,7 +154,7 @@ class SimulatedHeadset final : public SimHeadset {
   SimHeadTracker head_;
   SimClicker clicker_;
   SimVoice voice_;
-  SimDisplay display_;
+  SimWearer wearer_;
   std::vector<std::unique_ptr<SimDepth>> depth_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -17,6 +18,10 @@ enum class Pace {
   kFast,  ///< the clock advances by one frame at each call of cameras().next(); as fast as possible
   kRealtime  ///< the clock follows wall time; next() returns kNone until the next frame is due
 };
+
+class Surgeon;     // hal/sim/surgeon/surgeon.h
+struct Workplace;  // hal/sim/surgeon/surgeon.h
+using BringSurgeon = std::function<std::unique_ptr<Surgeon>(const Workplace&)>;
 
 /// The clamped patient reference is knocked after a number of wires.
 struct ReferenceBump {
@@ -46,8 +51,9 @@ struct SimOptions {
   bool relies_on_reference = false;
   ReferenceBump reference_bump;
   PatientShift patient_shift;
-  /// The scripted surgeon operates; without one the tools hover over the table in slow motion.
-  bool surgeon = true;
+  /// Who operates (study/surgeon/scripted_surgeon.h); null: nobody, and the tools hover over the
+  /// table in slow motion.
+  BringSurgeon surgeon;
   double limit_s = 3600.0;  ///< the stream ends at the latest then (simulated time)
   /// False leaves the images black and costs nothing: for callers that need no pixels.
   bool render = true;

@@ -13,6 +13,8 @@
 #include "hal/openxr/openxr_headset.h"
 #include "hal/replay/recorder.h"
 #include "hal/replay/replay_headset.h"
+#include "study/surgeon/scripted_surgeon.h"
+#include "study/surgeon/written_frame.h"
 #include "tests/support/bare_room.h"
 #include "tests/support/camera_scene.h"
 #include "tests/support/depth_scene.h"
@@ -44,21 +46,17 @@ std::unique_ptr<Headset> keeping(Kept kept, std::unique_ptr<Headset> headset) {
   return std::make_unique<Keeping<Kept>>(std::move(kept), std::move(headset));
 }
 
-/// Shows a step of the workflow with each pair, regardless of what it is asked to show.
+/// Shows a step of the workflow with each pair.
 class Prompting : public ForwardingHeadset {
  public:
-  Prompting(std::unique_ptr<Headset> inner, StepOnDisplay step)
-      : ForwardingHeadset(*inner),
-        inner_(std::move(inner)),
-        cameras_(*inner_, std::move(step)),
-        display_(inner_->display()) {}
+  Prompting(std::unique_ptr<Headset> inner, engine::StepOnDisplay step)
+      : ForwardingHeadset(*inner), inner_(std::move(inner)), cameras_(*inner_, std::move(step)) {}
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
-  [[nodiscard]] Display& display() override { return display_; }
 
  private:
   class Cameras : public ForwardingCamera {
    public:
-    Cameras(Headset& inner, StepOnDisplay step)
+    Cameras(Headset& inner, engine::StepOnDisplay step)
         : ForwardingCamera(inner.cameras()), inner_(inner), step_(std::move(step)) {}
 
    private:
@@ -67,25 +65,17 @@ class Prompting : public ForwardingHeadset {
       if (!answer || *answer != Next::kFrame) {
         return answer;
       }
-      ShownFrame shown;
-      shown.display_time = inner_.display().predicted_display_time(inner_.clock().now());
-      shown.status = ShownStatus{.at = step_};
-      EXPECT_TRUE(inner_.display().shown(shown).ok());
+      engine::ShownFrame shown;
+      shown.display_time = inner_.clock().now() + inner_.display_latency();
+      shown.status = engine::ShownStatus{.at = step_};
+      inner_.wearer()->see(sim::written(shown));
       return answer;
     }
     Headset& inner_;
-    StepOnDisplay step_;
-  };
-  class Unseen : public ForwardingDisplay {
-   public:
-    using ForwardingDisplay::ForwardingDisplay;
-
-   private:
-    Status do_shown(const ShownFrame&) override { return {}; }
+    engine::StepOnDisplay step_;
   };
   std::unique_ptr<Headset> inner_;
   Cameras cameras_;
-  Unseen display_;
 };
 
 template <class T>
@@ -146,7 +136,6 @@ std::unique_ptr<Headset> open_stream_recorder() {
 std::unique_ptr<Headset> open_sim() {
   OpenOptions options;
   options.room = bare_room();
-  options.sim.surgeon = false;
   options.sim.limit_s = 0.34;
   return checked(open_headset("sim:?seed=11", options));
 }
@@ -155,7 +144,6 @@ std::unique_ptr<Headset> open_sim() {
 std::unique_ptr<Headset> open_sim_with_depth() {
   OpenOptions options;
   options.room = bare_room();
-  options.sim.surgeon = false;
   options.sim.limit_s = 0.45;
   return checked(open_headset("sim:?seed=11&depth", options));
 }
@@ -214,8 +202,9 @@ std::unique_ptr<Headset> open_surgeon() {
   options.sim.frame_rate_hz = 10.0;
   options.sim.limit_s = 14.0;
   options.sim.error_model.pace = 4.0;
+  options.sim.surgeon = sim::ScriptedSurgeon::bring;
   return std::make_unique<Prompting>(checked(open_headset("sim:?seed=11", options)),
-                                     StepOnDisplay{Step::kDigitize, "L3", {}});
+                                     engine::StepOnDisplay{engine::Step::kDigitize, "L3", {}});
 }
 
 /// The scripted headset with a clicker from elsewhere: recorded events that begin with its clock.

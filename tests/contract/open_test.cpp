@@ -22,7 +22,6 @@ std::string refusal(const std::string& uri) {
 /// A short simulated time is enough here.
 OpenOptions brief() {
   OpenOptions options;
-  options.sim.surgeon = false;
   options.sim.limit_s = 0.2;
   return options;
 }

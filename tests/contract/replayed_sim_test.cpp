@@ -11,7 +11,6 @@ namespace {
 TEST(SimulatedSession, ReplaysToTheBit) {
   const orthonav::test::TemporaryFolder folder;
   OpenOptions options;
-  options.sim.surgeon = false;
   options.sim.limit_s = 0.5;
   auto sim = open_headset("sim:?seed=4", options);
   ASSERT_TRUE(sim.ok()) << sim.error().message;

@@ -255,21 +255,5 @@ TEST(Voice, RefusesAConfidenceOutsideZeroToOne) {
   }
 }
 
-TEST(Display, ShowsTheNextFrameAfterAFailure) {
-  RememberingDisplay inner(std::chrono::milliseconds(10));
-  FailingDisplay display(inner, {{1, DisplayFault::kError}});
-  const auto frame = [](int ms) {
-    ShownFrame shown;
-    shown.display_time = Timestamp(std::chrono::milliseconds(ms));
-    return shown;
-  };
-  EXPECT_TRUE(display.shown(frame(1)).ok());
-  const Status failed = display.shown(frame(2));
-  ASSERT_FALSE(failed.ok());
-  EXPECT_EQ(failed.error().message, "display: simulated failure");
-  EXPECT_TRUE(display.shown(frame(2)).ok()) << "a frame that was not shown may be tried again";
-  EXPECT_EQ(inner.frames().size(), 2u);
-}
-
 }  // namespace
 }  // namespace orthonav::fake

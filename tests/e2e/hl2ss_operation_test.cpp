@@ -15,6 +15,8 @@
 #include "study/evaluation.h"
 #include "study/sim_scenario.h"
 #include "study/simulated_operation.h"
+#include "study/surgeon/scripted_surgeon.h"
+#include "study/surgeon/written_frame.h"
 
 namespace orthonav::engine::hl2ss_operation_test {
 namespace {
@@ -76,6 +78,7 @@ Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults, doubl
   sim::SimOptions sim;
   sim.error_model = sim::ErrorModel::perfect();
   sim.error_model.pace = pace;
+  sim.surgeon = sim::ScriptedSurgeon::bring;
   sim::Truth truth;
   hl2ss::ServerOptions options;
   options.first_port = 0;
@@ -102,6 +105,8 @@ Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults, doubl
   assembly.errors = {none, none, {}, none};
   auto assembled = *assemble_operation(**headset, std::move(operation), *method_named("best"),
                                        built_in_tools(), assembly);
+  sim::ShownToWearer to_wearer(**headset);
+  assembled->observe(&to_wearer);
   MapLog map_log;
   assembled->observe(&map_log);
   auto report = assembled->run();

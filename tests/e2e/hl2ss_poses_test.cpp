@@ -42,7 +42,6 @@ Apart compare(hl2ss::VideoProfile profile, const sim::ErrorModel& error_model = 
   sim::SimOptions sim;
   sim.error_model = error_model;
   sim.seed = 9;
-  sim.surgeon = false;
   sim.limit_s = 1.0;
   hl2ss::ServerOptions options;
   options.first_port = 0;

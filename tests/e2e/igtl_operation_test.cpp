@@ -16,6 +16,8 @@
 #include "hal/igtl/tracker_headset.h"
 #include "study/evaluation.h"
 #include "study/sim_scenario.h"
+#include "study/surgeon/scripted_surgeon.h"
+#include "study/surgeon/written_frame.h"
 #include "tests/support/pose_server.h"
 
 namespace orthonav::engine::igtl_operation_test {
@@ -160,6 +162,7 @@ Operated operate(bool reference) {
   sim.error_model = sim::ErrorModel::perfect();
   sim.error_model.pace = 4.0;
   sim.render = false;
+  sim.surgeon = sim::ScriptedSurgeon::bring;
   const auto room =
       sim::SimHeadset::open(room_of(source, operation, built_in_tools()), sim).value();
   auto tools = tools_known_to(*room).value();
@@ -175,9 +178,11 @@ Operated operate(bool reference) {
   if (!live) {
     return out;
   }
+  sim::ShownToWearer to_wearer(headset);
   GroundTruthRecorder truth(*room, (*live)->session());
   EndNote end;
   Hider hider(headset, out.events);
+  (*live)->observe(&to_wearer);
   (*live)->observe(&truth);
   (*live)->observe(&end);
   (*live)->observe(static_cast<SessionObserver*>(&hider));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "study/surgeon/written_frame.h"
+
 namespace orthonav::soak {
 namespace {
 
@@ -12,9 +14,9 @@ int between(Random& random, int low, int high) {
   return static_cast<int>(random.uniform(low, high + 1));
 }
 
-bool depends_on_tool(const ShownHologram& hologram) {
-  return hologram.kind == HologramKind::kTriangle ||
-         (hologram.kind == HologramKind::kAngle && hologram.reading.has_value());
+bool depends_on_tool(const engine::ShownHologram& hologram) {
+  return hologram.kind == engine::HologramKind::kTriangle ||
+         (hologram.kind == engine::HologramKind::kAngle && hologram.reading.has_value());
 }
 
 }  // namespace
@@ -24,7 +26,7 @@ FlakyHeadset::FlakyHeadset(Headset& inner, Random random, const Chances& chances
       weather_{.random = random, .chances = chances},
       cameras_(inner.cameras(), weather_),
       voice_(inner.voice(), weather_),
-      display_(inner.display(), weather_) {}
+      glasses_(*inner.wearer(), weather_) {}
 
 void FlakyHeadset::Cameras::begin_trouble() {
   Weather& w = weather_;
@@ -98,18 +100,16 @@ Status FlakyHeadset::Speech::do_poll(Timestamp until, std::vector<Phrase>& phras
 }
 
 /// The wearer sees the holograms in the room's map, which did not jump.
-Status FlakyHeadset::Glasses::do_shown(const ShownFrame& frame) {
+void FlakyHeadset::Glasses::see(const WornFrame& frame) {
   ++frames;
-  const bool guides = std::any_of(frame.holograms.begin(), frame.holograms.end(), depends_on_tool);
-  stale += guides && frame.display_time - frame.pose_time > kStaleAfter ? 1 : 0;
-  back_ = frame;
-  const auto world_from_jumped = weather_.jumped_from_world.inverse();
-  for (ShownHologram& hologram : back_.holograms) {
-    for (Point<World>& point : hologram.points_in_world) {
-      point = world_from_jumped * point;
-    }
+  if (const auto shown = sim::shown_in(frame)) {
+    const bool guides =
+        std::any_of(shown->holograms.begin(), shown->holograms.end(), depends_on_tool);
+    stale += guides && shown->display_time - shown->pose_time > kStaleAfter ? 1 : 0;
   }
-  return ForwardingDisplay::do_shown(back_);
+  WornFrame back = frame;
+  back.wearer_from_drawn = weather_.jumped_from_world.inverse() * frame.wearer_from_drawn;
+  inner_.see(back);
 }
 
 }  // namespace orthonav::soak

@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "hal/api/forwarding_headset.h"
+#include "hal/api/wearer.h"
 
 namespace orthonav::soak {
 
@@ -41,17 +42,17 @@ struct Weather {
 };
 
 /// A simulated headset with injected faults. As with a real device, the room goes on while pairs
-/// are lost. Borrows the headset.
+/// are lost. Borrows the headset, which has a wearer.
 class FlakyHeadset : public ForwardingHeadset {
  public:
   FlakyHeadset(Headset& inner, Random random, const Chances& chances);
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
-  [[nodiscard]] Display& display() override { return display_; }
+  [[nodiscard]] Wearer* wearer() override { return &glasses_; }
   [[nodiscard]] const Troubles& done() const { return weather_.done; }
   /// Frames whose tool guidance was older than it may be when it lit up.
-  [[nodiscard]] std::int64_t stale_frames() const { return display_.stale; }
-  [[nodiscard]] std::int64_t frames() const { return display_.frames; }
+  [[nodiscard]] std::int64_t stale_frames() const { return glasses_.stale; }
+  [[nodiscard]] std::int64_t frames() const { return glasses_.frames; }
 
  private:
   class Cameras : public ForwardingCamera {
@@ -74,22 +75,22 @@ class FlakyHeadset : public ForwardingHeadset {
     Voice& inner_;
     Weather& weather_;
   };
-  class Glasses : public ForwardingDisplay {
+  class Glasses : public Wearer {
    public:
-    Glasses(Display& inner, Weather& weather) : ForwardingDisplay(inner), weather_(weather) {}
+    Glasses(Wearer& inner, Weather& weather) : inner_(inner), weather_(weather) {}
+    void see(const WornFrame& frame) override;
     std::int64_t stale = 0;
     std::int64_t frames = 0;
 
    private:
-    Status do_shown(const ShownFrame& frame) override;
+    Wearer& inner_;
     Weather& weather_;
-    ShownFrame back_;
   };
 
   Weather weather_;
   Cameras cameras_;
   Speech voice_;
-  Glasses display_;
+  Glasses glasses_;
 };
 
 }  // namespace orthonav::soak

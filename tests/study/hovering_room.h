@@ -22,7 +22,6 @@ inline std::unique_ptr<sim::SimHeadset> hovering_room(double lasting) {
   options.error_model.head_pose_noise_m = 0.0005;
   options.error_model.head_pose_noise_rad = 0.0003;
   options.error_model.head_pose_lasting = lasting;
-  options.surgeon = false;
   options.render = false;
   return sim::SimHeadset::open(hovering_tools(), options).value();
 }

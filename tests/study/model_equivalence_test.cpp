@@ -21,7 +21,6 @@ constexpr int kSettled = 12;
 std::unique_ptr<sim::SimHeadset> documented_room(std::uint64_t seed) {
   sim::SimOptions options;
   options.seed = seed;
-  options.surgeon = false;
   return sim::SimHeadset::open(hovering_tools(), options).value();
 }
 

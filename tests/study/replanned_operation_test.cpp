@@ -11,6 +11,8 @@
 #include "study/evaluation.h"
 #include "study/modelled_tracker.h"
 #include "study/sim_scenario.h"
+#include "study/surgeon/scripted_surgeon.h"
+#include "study/surgeon/written_frame.h"
 
 namespace orthonav::engine::replanned_operation_test {
 namespace {
@@ -60,6 +62,7 @@ TEST(ReplannedOperation, TheWireFollowsThePlanInUse) {
   sim::SimOptions sim;
   sim.error_model = sim::ErrorModel::perfect();
   sim.render = false;
+  sim.surgeon = sim::ScriptedSurgeon::bring;
   const auto room =
       sim::SimHeadset::open(room_of(source, operation, built_in_tools()), sim).value();
   Method method = method_named("best").value();
@@ -71,8 +74,10 @@ TEST(ReplannedOperation, TheWireFollowsThePlanInUse) {
   const auto live =
       assemble_operation(headset, std::move(operation), method, tools_known_to(*room).value())
           .value();
+  sim::ShownToWearer to_wearer(headset);
   GroundTruthRecorder truth(*room, live->session());
   EndNote end;
+  live->observe(&to_wearer);
   live->observe(&truth);
   live->observe(&end);
   live->observe(static_cast<SessionObserver*>(&headset));

@@ -14,9 +14,9 @@ inline std::string step_of(const engine::Guidance& guidance) {
   return engine::name_of(guidance.status.at);
 }
 
-inline Notice notice_of(const engine::Guidance& guidance) {
+inline engine::Notice notice_of(const engine::Guidance& guidance) {
   const engine::Message* message = guidance.status.message;
-  return message ? engine::notice_of(*message) : Notice::kNone;
+  return message ? engine::notice_of(*message) : engine::Notice::kNone;
 }
 
 /// The message if it is of that kind, or null.

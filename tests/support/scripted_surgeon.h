@@ -30,17 +30,17 @@ class ScriptedSurgeon {
   /// Does one thing; false once the operation is done.
   bool act() {
     switch (s_.session().current_step()) {
-      case Step::kSetup:
+      case engine::Step::kSetup:
         s_.tracker().pointer = pointer_at(kOnBone);
         s_.says("start");
         return true;
-      case Step::kDigitize:
+      case engine::Step::kDigitize:
         return digitize();
-      case Step::kVerify:
+      case engine::Step::kVerify:
         return verify();
-      case Step::kTouchLandmark:
+      case engine::Step::kTouchLandmark:
         return touch_landmark();
-      case Step::kGuide:
+      case engine::Step::kGuide:
         if (is_to_be_moved()) {
           s_.says("move cranial one");
           return true;
@@ -49,14 +49,14 @@ class ScriptedSurgeon {
         s_.pairs(3);
         s_.says("next");
         return true;
-      case Step::kMeasureWire:
+      case engine::Step::kMeasureWire:
         return measure();
-      case Step::kRod:
+      case engine::Step::kRod:
         return touch_heads();
-      case Step::kRegistering:
+      case engine::Step::kRegistering:
         s_.pair();
         return true;
-      case Step::kDone:
+      case engine::Step::kDone:
         return false;
     }
     return false;
@@ -120,7 +120,7 @@ class ScriptedSurgeon {
     const auto* so_far = std::get_if<engine::LandmarkSoFar>(&s_.pair().status.state);
     if (so_far != nullptr && (!so_far->last || so_far->last->missing > 0)) {
       s_.touches(ScriptedOperation::kLandmark);
-    } else if (s_.says("next").step == Step::kTouchLandmark) {
+    } else if (s_.says("next").step == engine::Step::kTouchLandmark) {
       s_.touches(ScriptedOperation::kLandmark);  // a screw is redone
     }
     return true;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/api/forwarding_headset.h"
+#include "hal/api/wearer.h"
 #include "tests/support/scripted_session.h"
 
 namespace orthonav::test {
@@ -11,7 +12,8 @@ namespace orthonav::test {
 /// A headset with an answer to every optional query, of its cameras too.
 class TellingHeadset : public fake::FakeHeadset {
  public:
-  TellingHeadset() : FakeHeadset(scripted_session()) {}
+  explicit TellingHeadset(fake::Script script = scripted_session())
+      : FakeHeadset(std::move(script)) {}
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
   [[nodiscard]] DescribedTools described_tools() const override {
     return ToolsFile{"a file", "its text"};
@@ -21,6 +23,9 @@ class TellingHeadset : public fake::FakeHeadset {
     told.pairs = 42;
     return told;
   }
+  [[nodiscard]] Wearer* wearer() override { return &wearer_; }
+  /// What the wearer saw.
+  [[nodiscard]] const std::vector<WornFrame>& seen() const { return wearer_.seen; }
   [[nodiscard]] bool is_tapped() const { return cameras_.tap != nullptr; }
 
  private:
@@ -37,7 +42,12 @@ class TellingHeadset : public fake::FakeHeadset {
       return true;
     }
   };
+  struct Remembering : Wearer {
+    void see(const WornFrame& frame) override { seen.push_back(frame); }
+    std::vector<WornFrame> seen;
+  };
   Cameras cameras_{FakeHeadset::cameras()};
+  Remembering wearer_;
 };
 
 /// `taps`: the wrapper lets others see pairs before it returns them; one that changes pairs only
@@ -49,6 +59,11 @@ inline void expect_passed_on(const TellingHeadset& inner, Headset& wrapper, bool
   EXPECT_EQ(std::get<ToolsFile>(tools).text, "its text");
   ASSERT_TRUE(wrapper.connection());
   EXPECT_EQ(wrapper.connection()->pairs, 42);
+  EXPECT_EQ(wrapper.display_latency(), inner.display_latency());
+  const std::size_t seen = inner.seen().size();
+  ASSERT_NE(wrapper.wearer(), nullptr);
+  wrapper.wearer()->see({});
+  EXPECT_EQ(inner.seen().size(), seen + 1);
   EXPECT_THAT(wrapper.cameras().measured_tools(), ::testing::ElementsAre("pointer", "guide"));
   EXPECT_EQ(wrapper.cameras().may_repeat(), (MayRepeat{true, false}));
   struct Unused : PairTap {

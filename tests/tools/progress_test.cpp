@@ -21,7 +21,7 @@ struct Operation {
       level.screws.resize(2);
     }
   }
-  [[nodiscard]] engine::Guidance at(Step step, const std::string& level = "L4") const {
+  [[nodiscard]] engine::Guidance at(engine::Step step, const std::string& level = "L4") const {
     engine::Guidance guidance;
     guidance.step = step;
     guidance.status.at = {step, level, std::nullopt};
@@ -35,7 +35,7 @@ Timestamp at(int s) { return Timestamp(std::chrono::seconds(s)); }
 TEST(OperationEstimate, GrowsWhileAStepLastsTowardsThePartsThatAreLeft) {
   OperationEstimate estimate;
   const Operation operation;
-  const engine::Guidance digitizing = operation.at(Step::kDigitize);
+  const engine::Guidance digitizing = operation.at(engine::Step::kDigitize);
   double before = estimate.fraction(at(100), digitizing);
   EXPECT_EQ(before, 0.0);
   for (int s = 110; s < 400; s += 10) {
@@ -50,12 +50,12 @@ TEST(OperationEstimate, GrowsWhileAStepLastsTowardsThePartsThatAreLeft) {
 TEST(OperationEstimate, NeverFallsWhenALevelIsStrokedAgain) {
   OperationEstimate estimate;
   Operation operation;
-  (void)estimate.fraction(at(0), operation.at(Step::kDigitize));
+  (void)estimate.fraction(at(0), operation.at(engine::Step::kDigitize));
   operation.levels[0].registration.emplace();
-  const double registered = estimate.fraction(at(200), operation.at(Step::kVerify));
+  const double registered = estimate.fraction(at(200), operation.at(engine::Step::kVerify));
   EXPECT_GT(registered, 0.2);
   const Operation again;
-  EXPECT_EQ(estimate.fraction(at(201), again.at(Step::kDigitize)), registered);
+  EXPECT_EQ(estimate.fraction(at(201), again.at(engine::Step::kDigitize)), registered);
 }
 
 TEST(OperationEstimate, IsWholeOnlyWhenTheOperationIsDone) {
@@ -66,9 +66,9 @@ TEST(OperationEstimate, IsWholeOnlyWhenTheOperationIsDone) {
     level.accepted = true;
     level.screws = {{.done = true}, {.done = true}};
   }
-  (void)estimate.fraction(at(0), operation.at(Step::kRod, ""));
-  EXPECT_LT(estimate.fraction(at(100'000), operation.at(Step::kRod, "")), 1.0);
-  EXPECT_EQ(estimate.fraction(at(100'001), operation.at(Step::kDone, "")), 1.0);
+  (void)estimate.fraction(at(0), operation.at(engine::Step::kRod, ""));
+  EXPECT_LT(estimate.fraction(at(100'000), operation.at(engine::Step::kRod, "")), 1.0);
+  EXPECT_EQ(estimate.fraction(at(100'001), operation.at(engine::Step::kDone, "")), 1.0);
 }
 
 TEST(ProgressBar, SaysWhatIsLeftOnceThatIsKnown) {

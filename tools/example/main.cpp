@@ -9,6 +9,7 @@
 #include <orthonav/hal/sim/sim_headset.h>
 #include <orthonav/study/set_up.h>
 #include <orthonav/study/sim_scenario.h>
+#include <orthonav/study/surgeon/written_frame.h>
 
 #include "must.h"
 
@@ -58,6 +59,9 @@ int main(int argc, char** argv) {
                                             must(method_named("best")), built_in_tools(), options));
   Printer printer;
   live->observe(&printer);
+  // The simulated surgeon can't see pixels: they are told what is shown.
+  sim::ShownToWearer to_surgeon(*headset);
+  live->observe(&to_surgeon);
   must(live->run().ended);
 
   const LevelState& level = live->session().levels().front();

@@ -13,7 +13,7 @@ using namespace orthonav;
 
 /// A minimal headset. It shows an empty room at 30 pairs a second for as many pairs as its URI
 /// says: "skeleton:90".
-class SkeletonDevice : public Headset, Clock, StereoCamera, HeadTracker, Clicker, Voice, Display {
+class SkeletonDevice : public Headset, Clock, StereoCamera, HeadTracker, Clicker, Voice {
  public:
   SkeletonDevice(StereoCalibration calibration, int pairs)
       : calibration_(std::move(calibration)), pairs_(pairs) {}
@@ -23,7 +23,7 @@ class SkeletonDevice : public Headset, Clock, StereoCamera, HeadTracker, Clicker
   [[nodiscard]] HeadTracker& head() override { return *this; }
   [[nodiscard]] Clicker& clicker() override { return *this; }
   [[nodiscard]] Voice& voice() override { return *this; }
-  [[nodiscard]] Display& display() override { return *this; }
+  [[nodiscard]] Duration display_latency() const override { return std::chrono::milliseconds(16); }
 
  private:
   /// Into the buffer that the frame has already.
@@ -56,8 +56,6 @@ class SkeletonDevice : public Headset, Clock, StereoCamera, HeadTracker, Clicker
   [[nodiscard]] std::optional<Timestamp> do_newest_measurement() const override { return now(); }
   Status do_poll(Timestamp, std::vector<ClickerEvent>&) override { return {}; }
   Status do_poll(Timestamp, std::vector<Phrase>&) override { return {}; }
-  [[nodiscard]] Duration do_latency() const override { return std::chrono::milliseconds(16); }
-  Status do_shown(const ShownFrame&) override { return {}; }
 
   StereoCalibration calibration_;
   int pairs_;

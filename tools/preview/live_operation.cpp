@@ -10,6 +10,7 @@
 #include "engine/session/text/wording.h"
 #include "engine/session/workflow/commands.h"
 #include "study/sim_scenario.h"
+#include "study/surgeon/scripted_surgeon.h"
 #include "tools/support/eye_in_rig.h"
 
 namespace orthonav::preview {
@@ -61,6 +62,7 @@ Result<std::unique_ptr<LiveOperation>> LiveOperation::open(const OperationSource
   options.room = engine::room_of(source.source, source.operation, engine::built_in_tools());
   options.room.exposure = engine::strokes_of(source.method.name);
   options.sim = room;
+  options.sim.surgeon = sim::ScriptedSurgeon::bring;
   options.phrases = engine::headset_phrases();
   auto opened = open_with_room(source.headset, options);
   if (!opened) {
@@ -86,6 +88,7 @@ LiveOperation::LiveOperation(OpenedHeadset opened, Gate& gate, Keyboard& keyboar
       room_(opened.room),
       gate_(gate),
       gated_(*headset_, gate, keyboard),
+      to_wearer_(gated_),
       timeline_(timeline) {}
 
 LiveOperation::~LiveOperation() {
@@ -123,6 +126,7 @@ Status LiveOperation::prepare(const OperationSource& source) {
   }
   operation_ = std::move(*assembled);
   operation_->observe(this);
+  operation_->observe(&to_wearer_);
   operation_->draw_into(this);
   tell_end_ = source.ended;
   return source.assembled ? source.assembled(*operation_, room_) : Status{};

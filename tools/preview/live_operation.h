@@ -10,6 +10,7 @@
 #include "engine/holograms/labels/label_layout.h"
 #include "engine/live/assembled_operation.h"
 #include "hal/open/open.h"
+#include "study/surgeon/written_frame.h"
 #include "tools/preview/preview_headset.h"
 #include "tools/preview/timeline.h"
 
@@ -68,6 +69,7 @@ class LiveOperation : private engine::LoopObserver, private engine::SnapshotSink
   const sim::SimHeadset* room_ = nullptr;  ///< the headset, where it is the simulated one
   Gate& gate_;
   PreviewHeadset gated_;
+  sim::ShownToWearer to_wearer_;
   Timeline& timeline_;
   std::unique_ptr<engine::AssembledOperation> operation_;
   Moment moment_;  ///< of the pair being worked on

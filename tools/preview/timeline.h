@@ -32,7 +32,7 @@ struct Moment {
   std::int64_t pair = 0;      ///< counts from 1: how many pairs had passed
   std::int64_t sequence = 0;  ///< the headset's own number of it
   Timestamp time{};           ///< mid-exposure
-  StepOnDisplay at;
+  engine::StepOnDisplay at;
   std::string detail;
   std::vector<ToolSeen> tools;
   double camera_ms = 0.0;    ///< wall time: the pair itself

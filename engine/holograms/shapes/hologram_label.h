@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "hal/api/display.h"
+#include "engine/session/shown_frame.h"
 #include "render/scene.h"
 
 namespace orthonav::engine {

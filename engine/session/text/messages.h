@@ -11,10 +11,10 @@
 #include "base/result.h"
 #include "base/time.h"
 #include "engine/session/replan.h"
+#include "engine/session/shown_status.h"
 #include "engine/session/workflow/workflow.h"
 #include "hal/api/devices.h"
 #include "hal/api/repeat_watch.h"
-#include "hal/api/shown_status.h"
 #include "nav/registration/check_points.h"
 #include "nav/registration/findings.h"
 

@@ -11,10 +11,10 @@
 #include "engine/session/landmark.h"
 #include "engine/session/log/saving.h"
 #include "engine/session/placed_wire.h"
+#include "engine/session/shown_status.h"
 #include "engine/session/text/messages.h"
 #include "engine/session/touched_heads.h"
 #include "engine/session/work_watch.h"
-#include "hal/api/shown_status.h"
 #include "nav/registration/check_points.h"
 
 namespace orthonav::engine {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "hal/api/shown_status.h"
+#include "engine/session/shown_status.h"
 
 namespace orthonav::engine {
 
@@ -130,8 +130,6 @@ struct MethodSteps {
     return {false, false, false, false, false, false};
   }
 };
-
-using orthonav::Step;
 
 /// What the answer of a step may depend on besides the event; shown and recorded as the step. Where
 /// several hold at once, the first one that has an answer gives it.
@@ -367,8 +365,6 @@ inline constexpr auto kRulesWireUnmeasured = std::to_array<Rule>({
 // clang-format on
 }  // namespace workflow_detail
 
-using orthonav::kStepCount;
-
 struct Cell {
   Step next = Step::kSetup;
   Action action = Action::kRefuse;
@@ -488,7 +484,6 @@ inline constexpr Workflow kWorkflowByEye = workflow_of(MethodSteps::none());
   return answer(verification == Verification::kByEye ? kWorkflowByEye : kWorkflow, step, event);
 }
 
-using orthonav::name_of;
 [[nodiscard]] std::string_view name_of(State state);
 [[nodiscard]] std::string_view name_of(Event event);
 [[nodiscard]] std::string_view name_of(Action action);

@@ -52,15 +52,11 @@ void ServedHeadset::end_session() {
   headset_.reset();
 }
 
-void ServedHeadset::show(const Transform<World, World>& back, ShownFrame& frame) {
+void ServedHeadset::show(const Transform<World, World>& back, WornFrame& frame) {
   const MutexLock lock(mutex_);
-  for (ShownHologram& hologram : frame.holograms) {
-    for (Point<World>& point : hologram.points_in_world) {
-      point = back * point;
-    }
-  }
-  if (headset_ && in_session_) {
-    (void)headset_->display().shown(frame);
+  frame.wearer_from_drawn = back * frame.wearer_from_drawn;
+  if (headset_ && in_session_ && headset_->wearer()) {
+    headset_->wearer()->see(frame);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/mutex.h"
 #include "hal/api/depth_camera.h"
+#include "hal/api/wearer.h"
 #include "hal/hl2ss/server/server.h"
 
 namespace orthonav::hl2ss {
@@ -30,9 +31,9 @@ class ServedHeadset {
   /// anything is shown.
   Result<Headset*> begin_session(const std::function<void(Headset&)>& prepare);
   void end_session();
-  /// Shows the frame if a session is running. `back` converts from the client's world to the
-  /// headset's.
-  void show(const Transform<World, World>& back, ShownFrame& frame);
+  /// Shows the frame to the wearer if a session is running. `back` converts from the client's
+  /// world to the headset's.
+  void show(const Transform<World, World>& back, WornFrame& frame);
 
  private:
   Server::OpenHeadset open_;

@@ -108,7 +108,7 @@ class RunningServer final : public Server {
   /// Passes the client's frames to the wearer.
   void show() {
     const Transform<World, World> back = sender_.world_from_jumped();
-    for (ShownFrame& frame : sides_.take_shown()) {
+    for (WornFrame& frame : sides_.take_shown()) {
       headset_.show(back, frame);
     }
     sides_.publish_took();
@@ -141,7 +141,7 @@ class RunningServer final : public Server {
       report.is_streaming = true;
     });
     const Timestamp now = headset.clock().now();
-    const Duration latency = headset.display().predicted_display_time(now) - now;
+    const Duration latency = headset.display_latency();
     sides_.greet({options_.paced, latency, now, headset.cameras().may_repeat()});
     depth_.begin(headset);
   }

@@ -153,7 +153,7 @@ void SidePorts::tell(const std::vector<ClickerEvent>& clicks, const std::vector<
   }
 }
 
-std::vector<ShownFrame> SidePorts::take_shown() {
+std::vector<WornFrame> SidePorts::take_shown() {
   const MutexLock lock(mutex_);
   return std::exchange(shown_, {});
 }

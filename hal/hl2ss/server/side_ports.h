@@ -24,7 +24,7 @@ class SidePorts {
   void tell(const std::vector<ClickerEvent>& clicks, const std::vector<Phrase>& phrases,
             const StandinUpTo& up_to);
   /// The frames that the client showed since the last call.
-  std::vector<ShownFrame> take_shown();
+  std::vector<WornFrame> take_shown();
   /// Whether the client is done with the pair of this time.
   [[nodiscard]] bool took(Timestamp pair_time) const;
   void wait_for_took();
@@ -46,7 +46,7 @@ class SidePorts {
   ConditionVariable took_changed_;
   std::optional<std::vector<std::string>> vocabulary_ ORTHONAV_GUARDED_BY(mutex_);
   std::vector<Phrase> phrases_ ORTHONAV_GUARDED_BY(mutex_);
-  std::vector<ShownFrame> shown_ ORTHONAV_GUARDED_BY(mutex_);
+  std::vector<WornFrame> shown_ ORTHONAV_GUARDED_BY(mutex_);
   std::optional<StandinHello> hello_ ORTHONAV_GUARDED_BY(mutex_);
   Timestamp heard_took_ ORTHONAV_GUARDED_BY(mutex_) = Timestamp::min();
   Timestamp took_ ORTHONAV_GUARDED_BY(mutex_) = Timestamp::min();

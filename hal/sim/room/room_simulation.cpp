@@ -50,9 +50,9 @@ RoomSimulation::RoomSimulation(RoomDescription room, const SimOptions& options, 
   }
   states_.resize(kKept, nothing);
   if (options.surgeon && layout_.levels() > 0) {
-    surgeon_ = std::make_unique<Surgeon>(
-        layout_, error_model_, Random(options.seed).fork("surgeon"), eyes_,
-        RetainedImplants(truth_), options.guidance, options.relies_on_reference);
+    surgeon_ =
+        options.surgeon({layout_, error_model_, Random(options.seed).fork("surgeon"),
+                         RetainedImplants(truth_), options.guidance, options.relies_on_reference});
   }
   step();
 }
@@ -73,9 +73,7 @@ void RoomSimulation::step() {
   }
   now.room_from_rig = head_.pose(seconds_in(now.time));
   ++steps_;
-  for (auto due = eyes_.next_due(); due && *due <= now.time; due = eyes_.next_due()) {
-    eyes_.light_up(room_from_rig(*due));
-  }
+  light_up(now.time);
   std::fill(now.tool_present.begin(), now.tool_present.end(), false);
   now.hand.reset();
   if (surgeon_) {
@@ -85,6 +83,32 @@ void RoomSimulation::step() {
   }
   if (layout_.levels() > 0) {
     leave_reference(now);
+  }
+}
+
+void RoomSimulation::show(const WornFrame& frame,
+                          const Transform<World, Rig>& believed_world_from_rig) {
+  if (frame.display_time <= newest_drawn_) {
+    return;
+  }
+  newest_drawn_ = frame.display_time;
+  if (drawn_count_ == kMostDrawn) {
+    first_drawn_ = (first_drawn_ + 1) % kMostDrawn;
+    --drawn_count_;
+  }
+  drawn_[(first_drawn_ + drawn_count_) % kMostDrawn] = {frame, believed_world_from_rig};
+  ++drawn_count_;
+}
+
+void RoomSimulation::light_up(Timestamp until) {
+  while (drawn_count_ > 0 && drawn_[first_drawn_].frame.display_time <= until) {
+    const Drawn& due = drawn_[first_drawn_];
+    if (surgeon_) {
+      surgeon_->see(due.frame,
+                    room_from_rig(due.frame.display_time) * due.believed_world_from_rig.inverse());
+    }
+    first_drawn_ = (first_drawn_ + 1) % kMostDrawn;
+    --drawn_count_;
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -10,7 +11,6 @@
 #include "hal/sim/room/spine_motion.h"
 #include "hal/sim/sim_headset.h"
 #include "hal/sim/surgeon/drilling.h"
-#include "hal/sim/surgeon/eyes.h"
 #include "hal/sim/surgeon/head_motion.h"
 #include "hal/sim/surgeon/surgeon.h"
 
@@ -38,7 +38,10 @@ class RoomSimulation {
 
   [[nodiscard]] const RoomDescription& room() const { return room_; }
   [[nodiscard]] const Truth& truth() const { return truth_; }
-  [[nodiscard]] Eyes& eyes() { return eyes_; }
+  /// A frame that will light up at its display time, drawn for the head pose that the headset
+  /// believes in then: a hologram appears where that puts it relative to the true head. A frame
+  /// that is not later than those before is left out.
+  void show(const WornFrame& frame, const Transform<World, Rig>& believed_world_from_rig);
   /// Clicks and words not yet fetched, in order.
   [[nodiscard]] std::vector<ClickerEvent>& clicks() { return clicks_; }
   [[nodiscard]] std::vector<Phrase>& phrases() { return phrases_; }
@@ -56,6 +59,7 @@ class RoomSimulation {
   static constexpr std::size_t kKept = 128;
 
   void step();
+  void light_up(Timestamp until);
   void let_surgeon_act(RoomState& now);
   void let_tools_hover(RoomState& now) const;
   void leave_reference(RoomState& now);
@@ -109,7 +113,16 @@ class RoomSimulation {
   PatientShift shift_;
   Random shifting_;
   Vec3 slipped_m_{};  ///< on the table, in Room
-  Eyes eyes_;
+  struct Drawn {
+    WornFrame frame;
+    Transform<World, Rig> believed_world_from_rig;
+  };
+  /// Frames that have not lit up, the oldest at `first_drawn_`; of more, the oldest are lost.
+  static constexpr std::size_t kMostDrawn = 16;  // a quarter of a second at 60 Hz
+  std::array<Drawn, kMostDrawn> drawn_;
+  std::size_t first_drawn_ = 0;
+  std::size_t drawn_count_ = 0;
+  Timestamp newest_drawn_ = Timestamp::min();
   Truth truth_;
   int wires_driven_ = 0;
   std::unique_ptr<Surgeon> surgeon_;

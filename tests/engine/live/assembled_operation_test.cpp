@@ -7,6 +7,7 @@
 #include "hal/fake/failing.h"
 #include "tests/support/scripted_operation.h"
 #include "tests/support/scripted_pairs.h"
+#include "tests/support/shown_frames.h"
 
 namespace orthonav::engine {
 namespace {
@@ -63,6 +64,8 @@ TEST_F(AssembledOperationTest, RunsFromPairsToWhatIsShown) {
   CountingObserver counting;
   HearingObserver first;
   HearingObserver second;
+  test::ShownFrames shown;
+  (*operation)->observe(&shown);
   (*operation)->observe(&counting);
   (*operation)->observe(&first);
   (*operation)->observe(&second);
@@ -72,7 +75,7 @@ TEST_F(AssembledOperationTest, RunsFromPairsToWhatIsShown) {
   EXPECT_EQ(counting.pairs, 5);
   EXPECT_THAT(first.heard, ::testing::ElementsAre("abracadabra"));
   EXPECT_EQ(second.heard, first.heard);
-  EXPECT_EQ(headset.display().frames().size(), 6u) << "and one that takes all back";
+  EXPECT_EQ(shown.frames().size(), 6u) << "and one that takes all back";
   EXPECT_EQ(asked_.full_search_interval, 10);
 }
 

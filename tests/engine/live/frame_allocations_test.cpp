@@ -204,22 +204,14 @@ class EndlessCamera : public StereoCamera {
   }
 };
 
-class ForgetfulDisplay : public Display {
- private:
-  [[nodiscard]] Duration do_latency() const override { return std::chrono::milliseconds(16); }
-  Status do_shown(const ShownFrame&) override { return {}; }
-};
-
 class EndlessHeadset : public ForwardingHeadset {
  public:
   EndlessHeadset(fake::FakeHeadset& inner, int count)
       : ForwardingHeadset(inner), cameras_(inner, count) {}
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
-  [[nodiscard]] Display& display() override { return display_; }
 
  private:
   EndlessCamera cameras_;
-  ForgetfulDisplay display_;
 };
 
 /// Counts what any thread allocates from a pair on.

@@ -6,6 +6,7 @@
 
 #include "engine/live/frame_loop.h"
 #include "tests/support/scripted_operation.h"
+#include "tests/support/shown_frames.h"
 
 namespace orthonav::engine {
 
@@ -26,12 +27,15 @@ class GuidingLoop : public ::testing::Test {
   LoopReport run(Headset& headset, LoopObserver* observer = nullptr, SnapshotSink* sink = nullptr) {
     SceneBuilder builder;
     FrameLoop loop(headset, s.session(), builder, options);
+    seen.clear();
+    loop.observe(&seen);
     loop.observe(observer);
     loop.draw_into(sink);
     return loop.run();
   }
   test::ScriptedOperation s;
   LoopOptions options;
+  test::ShownFrames seen;  ///< in the last run
 };
 
 }  // namespace orthonav::engine

@@ -17,7 +17,7 @@ TEST_F(WatchedLoop, ACameraThatHangsIsNamedByTheDrawer) {
   const auto report = run(headset);
   ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
   EXPECT_EQ(report.stalls, 1);
-  EXPECT_TRUE(shows_triangle(inner.display().frames().at(2))) << "and it goes on with the next";
+  EXPECT_TRUE(shows_triangle(seen.frames().at(2))) << "and it goes on with the next";
 }
 
 TEST_F(WatchedLoop, AWarningThatCannotBeDrawnIsCounted) {
@@ -66,7 +66,7 @@ TEST_F(WatchedLoop, AVoiceThatSaysItStalledHidesGuidanceAndEndsNothing) {
   const auto report = run(headset, &see);
   ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
   EXPECT_EQ(report.stalls, 1);
-  const auto frames = inner.display().frames();
+  const auto frames = seen.frames();
   ASSERT_EQ(frames.size(), kPairs + 1u);
   ASSERT_EQ(stalled.size(), static_cast<std::size_t>(kPairs));
   EXPECT_TRUE(frames[10].holograms.empty());
@@ -93,7 +93,7 @@ TEST_F(WatchedLoop, ARendererThatHangsIsNamedByTheTracker) {
   });
   const auto report = run(headset, &see);
   ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
-  const auto frames = headset.display().frames();
+  const auto frames = seen.frames();
   ASSERT_TRUE(first.has_value());
   ASSERT_GT(frames.size(), *first);
   EXPECT_TRUE(frames[*first].holograms.empty());
@@ -117,7 +117,7 @@ TEST_F(WatchedLoop, NothingIsNamedWhileAllGoWell) {
   ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
   EXPECT_EQ(report.stalls, 0);
   EXPECT_TRUE(sink.stalls().empty());
-  EXPECT_TRUE(shows_triangle(headset.display().frames().at(39)));
+  EXPECT_TRUE(shows_triangle(seen.frames().at(39)));
 }
 
 TEST_F(WatchedLoop, WhoeverDiesOnTheTrackingThreadIsNamedAndNothingIsGuided) {
@@ -130,7 +130,7 @@ TEST_F(WatchedLoop, WhoeverDiesOnTheTrackingThreadIsNamedAndNothingIsGuided) {
   const auto report = run(inner, &dies);
   ASSERT_FALSE(report.ended.ok());
   EXPECT_EQ(report.ended.error().message, "tracker: out of memory");
-  const auto frames = inner.display().frames();
+  const auto frames = seen.frames();
   ASSERT_EQ(frames.size(), 4u) << "three pairs, and one that takes back";
   EXPECT_TRUE(frames.back().holograms.empty());
 
@@ -139,7 +139,7 @@ TEST_F(WatchedLoop, WhoeverDiesOnTheTrackingThreadIsNamedAndNothingIsGuided) {
   const auto of_camera = run(camera);
   ASSERT_FALSE(of_camera.ended.ok());
   EXPECT_EQ(of_camera.ended.error().message, "camera: ended by an exception: driver");
-  EXPECT_TRUE(other.display().frames().back().holograms.empty());
+  EXPECT_TRUE(seen.frames().back().holograms.empty());
 }
 
 TEST_F(WatchedLoop, ASimulationDoesNotDependOnHowFastItIsDrawn) {
@@ -172,7 +172,7 @@ TEST_F(WatchedLoop, ARendererThatDiesEndsTheRunInOrder) {
     const auto report = run(headset);
     ASSERT_FALSE(report.ended.ok()) << waits;
     EXPECT_EQ(report.ended.error().message, "renderer: ended by an exception: driver");
-    EXPECT_TRUE(headset.display().frames().back().holograms.empty());
+    EXPECT_TRUE(seen.frames().back().holograms.empty());
   }
 }
 

@@ -41,7 +41,6 @@ std::vector<DepthFrame> depth_of_session(Headset& headset) {
 void expect_recorded(const DepthWish& wish, double limit_s) {
   sim::SimOptions sim;
   sim.seed = 5;
-  sim.surgeon = false;
   sim.render = false;
   sim.limit_s = limit_s;
   sim.depth = {wish.stream};

@@ -21,7 +21,6 @@ using ::testing::SizeIs;
 sim::SimOptions depth_session(double limit_s) {
   sim::SimOptions sim;
   sim.seed = 5;
-  sim.surgeon = false;
   sim.limit_s = limit_s;
   sim.error_model = sim::ErrorModel::perfect();
   sim.depth_errors = sim::DepthErrors::none();

@@ -23,7 +23,6 @@ using ::testing::Not;
 sim::SimOptions seen(int pairs) {
   sim::SimOptions sim;
   sim.seed = 5;
-  sim.surgeon = false;
   sim.limit_s = (pairs + 0.5) / 30.0;
   return sim;
 }

@@ -14,7 +14,6 @@ using orthonav::test::ServedRoom;
 sim::SimOptions short_session(double limit_s) {
   sim::SimOptions sim;
   sim.seed = 5;
-  sim.surgeon = false;
   sim.limit_s = limit_s;
   return sim;
 }

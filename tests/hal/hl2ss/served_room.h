@@ -32,7 +32,6 @@ class ServedRoom {
 inline sim::SimOptions black_session(double limit_s) {
   sim::SimOptions sim;
   sim.seed = 5;
-  sim.surgeon = false;
   sim.render = false;
   sim.limit_s = limit_s;
   return sim;

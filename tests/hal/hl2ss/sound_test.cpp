@@ -14,7 +14,6 @@ using orthonav::test::ServedRoom;
 
 TEST(SoundOfAHeadset, IsTheMeanOfBothChannels) {
   sim::SimOptions sim;
-  sim.surgeon = false;
   sim.limit_s = 60.0;
   sim.pace = sim::Pace::kRealtime;
   ServerOptions server;
@@ -47,7 +46,6 @@ TEST(SoundOfAHeadset, IsTheMeanOfBothChannels) {
 
 TEST(SoundOfAHeadset, IsDroppedWhereNobodyReads) {
   sim::SimOptions sim;
-  sim.surgeon = false;
   sim.limit_s = 60.0;
   ServerOptions server;
   server.paced = true;

@@ -2,27 +2,18 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 namespace orthonav::hl2ss::parser_test {
 namespace {
 
 using ::testing::HasSubstr;
 
 TEST(StandinMessages, ComeBackAsTheyWere) {
-  ShownFrame frame;
+  WornFrame frame;
   frame.display_time = Timestamp(Duration(12));
-  frame.pose_time = Timestamp(Duration(-5));
-  frame.status = ShownStatus{{Step::kGuide, "L4", orthonav::Side::kLeft},
-                             Notice::kTouchNotRecorded,
-                             ChecksAsked::kTouchMore,
-                             true,
-                             "guide L4 left",
-                             "heard: next"};
-  frame.holograms = {{.kind = HologramKind::kEntry,
-                      .level = "L4",
-                      .side = orthonav::Side::kRight,
-                      .text = "L4 right"},
-                     {.kind = HologramKind::kAngle, .reading = 0.25},
-                     {.kind = HologramKind::kRod, .points_in_world = {{{1, 2, 3}}}}};
+  frame.wearer_from_drawn = {rotation_from_vector({0.1, -0.2, 0.3}), {1.0, 2.0, -3.0}};
+  frame.content = {7, 0, 255};
   std::vector<std::uint8_t> bytes;
   append(bytes, StandinMessage{StandinShown{frame}});
   for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -33,32 +24,24 @@ TEST(StandinMessages, ComeBackAsTheyWere) {
   EXPECT_EQ((*read)->bytes, bytes.size());
   const auto& shown = std::get<StandinShown>((*read)->message).frame;
   EXPECT_EQ(shown.display_time, frame.display_time);
-  ASSERT_TRUE(shown.status.has_value());
-  EXPECT_EQ(shown.status->at, frame.status->at);
-  EXPECT_EQ(shown.status->notice, Notice::kTouchNotRecorded);
-  EXPECT_EQ(shown.status->checks, ChecksAsked::kTouchMore);
-  EXPECT_EQ(shown.status->text, "guide L4 left");
-  EXPECT_EQ(shown.status->heard, "heard: next");
-  ASSERT_EQ(shown.holograms.size(), 3u);
-  EXPECT_EQ(shown.holograms[0].kind, HologramKind::kEntry);
-  EXPECT_EQ(shown.holograms[0].level, "L4");
-  EXPECT_EQ(shown.holograms[0].side, orthonav::Side::kRight);
-  EXPECT_EQ(shown.holograms[0].text, "L4 right");
-  EXPECT_EQ(shown.holograms[0].reading, std::nullopt);
-  EXPECT_EQ(shown.holograms[1].reading, 0.25);
-  EXPECT_EQ(shown.holograms[1].side, std::nullopt);
-  EXPECT_EQ(shown.holograms[2].points_in_world[0].v, (Vec3{1, 2, 3}));
+  EXPECT_EQ(shown.wearer_from_drawn, frame.wearer_from_drawn);
+  EXPECT_EQ(shown.content, frame.content);
 }
 
-TEST(StandinMessages, WithAValueThatNoFrameHasAreRefused) {
-  ShownFrame frame;
-  frame.status.emplace();
+TEST(StandinMessages, OfAFrameInNoWorldAreRefused) {
   std::vector<std::uint8_t> bytes;
-  append(bytes, StandinMessage{StandinShown{frame}});
-  // Behind size, kind, two times and the mark of a status: the step.
-  constexpr std::size_t kStepAt = 5 + 16 + 1;
-  bytes[kStepAt] = 99;
-  EXPECT_THAT(read_standin_message(bytes).error().message, HasSubstr("unknown step, 99"));
+  append(bytes, StandinMessage{StandinShown{}});
+  // Behind size, kind and time: the transform, of which nothing is left.
+  std::fill(bytes.begin() + 13, bytes.end(), std::uint8_t{0});
+  EXPECT_THAT(read_standin_message(bytes).error().message, HasSubstr("not rigid"));
+}
+
+TEST(StandinMessages, OfAFrameCutShortAreRefused) {
+  std::vector<std::uint8_t> bytes;
+  append(bytes, std::uint32_t{20});
+  bytes.push_back(4);
+  bytes.resize(25);
+  EXPECT_THAT(read_standin_message(bytes).error().message, HasSubstr("does not fit"));
 }
 
 TEST(StandinMessages, OfAnotherServerAreRefused) {

@@ -11,6 +11,8 @@
 #include "hal/sim/sim_headset.h"
 #include "study/sim_scenario.h"
 #include "study/simulated_operation.h"
+#include "study/surgeon/scripted_surgeon.h"
+#include "study/surgeon/written_frame.h"
 #include "tests/hal/openxr/drawn_frames.h"
 
 namespace orthonav::test {
@@ -40,6 +42,7 @@ class OperationOnOpenxr : public RuntimeTest {
     sim::SimOptions options;
     options.error_model = sim::ErrorModel::perfect();
     options.error_model.pace = 4.0;
+    options.surgeon = sim::ScriptedSurgeon::bring;
     auto room = sim::SimHeadset::open(engine::room_of(spine, *operation, engine::built_in_tools()),
                                       options);
     ASSERT_TRUE(room.ok()) << room.error().message;
@@ -53,6 +56,7 @@ class OperationOnOpenxr : public RuntimeTest {
                                    engine::tools_known_to(*headset_).value(), assembly);
     ASSERT_TRUE(assembled.ok()) << assembled.error().message;
     operation_ = std::move(*assembled);
+    operation_->observe(&to_wearer_.emplace(*headset_));
   }
 
   engine::LoopReport run(engine::LoopObserver* observer = nullptr) {
@@ -64,6 +68,7 @@ class OperationOnOpenxr : public RuntimeTest {
     return report;
   }
 
+  std::optional<sim::ShownToWearer> to_wearer_;
   std::unique_ptr<engine::AssembledOperation> operation_;
 };
 

@@ -17,7 +17,6 @@ SimOptions with_depth(DepthStream stream) {
   options.seed = 5;
   options.error_model = ErrorModel::perfect();
   options.depth_errors = DepthErrors::none();
-  options.surgeon = false;
   options.render = false;
   options.limit_s = 1.0;
   options.depth = {stream};

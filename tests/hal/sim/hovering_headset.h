@@ -15,7 +15,6 @@ namespace orthonav::sim::sim_headset_test {
 inline SimOptions hovering(std::uint64_t seed = 1) {
   SimOptions options;
   options.seed = seed;
-  options.surgeon = false;
   options.render = false;
   return options;
 }

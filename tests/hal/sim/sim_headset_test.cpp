@@ -2,11 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
-#include <thread>
 
 #include "hal/sim/cameras/hololens2.h"
+#include "hal/sim/surgeon/surgeon.h"
 #include "tests/hal/sim/hovering_headset.h"
 #include "tests/hal/sim/test_rooms.h"
 
@@ -95,35 +94,54 @@ TEST(SimHeadset, TrueCamerasDifferFromTheReportedOnesByTheSeed) {
   EXPECT_NE(a.left, a.right);
 }
 
-TEST(SimHeadset, PartsMayBeUsedFromDifferentThreads) {
-  // Nothing to compare: the thread sanitizer would find a race.
-  SimOptions options;
-  options.render = false;
+/// Stands still and keeps what lights up.
+class Onlooker : public Surgeon {
+ public:
+  struct Seen {
+    Timestamp display_time;
+    Transform<Room, World> room_from_world;
+  };
+  Onlooker(const Workplace& workplace, std::vector<Seen>& seen)
+      : body_(workplace.random, workplace.error_model, 1.0, {}), seen_(seen) {}
+  void see(const WornFrame& frame, const Transform<Room, World>& room_from_world) override {
+    seen_.push_back({frame.display_time, room_from_world});
+  }
+  void tick(Timestamp now, const Bearings& /*bearings*/) override { body_.tick(now); }
+  void see_reference(Vec3 /*faces*/) override {}
+  [[nodiscard]] SurgeonBody& body() override { return body_; }
+  [[nodiscard]] bool finished() const override { return false; }
+  [[nodiscard]] bool gave_up() const override { return false; }
+
+ private:
+  SurgeonBody body_;
+  std::vector<Seen>& seen_;
+};
+
+TEST(SimHeadset, ItsWearerSeesEachFrameOnceAndInOrderWhenItLightsUp) {
+  std::vector<Onlooker::Seen> seen;
+  SimOptions options = hovering();
+  options.error_model = ErrorModel::perfect();
+  options.surgeon = [&seen](const Workplace& workplace) {
+    return std::make_unique<Onlooker>(workplace, seen);
+  };
   const TestCase test_case = synthetic_case();
   const auto headset = opened(options, test_case.room);
-  std::atomic<bool> running{true};
-  std::thread other([&headset, &running] {
-    std::vector<ClickerEvent> clicks;
-    std::vector<Phrase> phrases;
-    while (running) {
-      const Timestamp now = headset->clock().now();
-      EXPECT_TRUE(headset->clicker().poll(now, clicks).ok());
-      EXPECT_TRUE(headset->voice().poll(now, phrases).ok());
-      static_cast<void>(headset->head().world_from_rig(now));
-      ShownFrame shown;
-      shown.display_time = headset->display().predicted_display_time(now);
-      shown.status = ShownStatus{.at = {Step::kDigitize, "L4", {}}};
-      // Refused while no new frame has moved the clock.
-      static_cast<void>(headset->display().shown(shown));
-      static_cast<void>(headset->state());
-      static_cast<void>(headset->world_from_room());
-    }
-  });
-  for (int i = 0; i < 600; ++i) {
-    next_frame(*headset);
+  next_frame(*headset);
+  const Timestamp lit = headset->clock().now() + headset->display_latency();
+  WornFrame frame;
+  for (const Timestamp display_time : {lit, lit, lit - Duration(1), lit + Duration(1)}) {
+    frame.display_time = display_time;
+    headset->wearer()->see(frame);
   }
-  running = false;
-  other.join();
+  EXPECT_TRUE(seen.empty()) << "not before its time";
+  next_frame(*headset);
+  next_frame(*headset);
+  ASSERT_EQ(seen.size(), 2u);
+  EXPECT_EQ(seen[0].display_time, lit);
+  EXPECT_EQ(seen[1].display_time, lit + Duration(1));
+  // Without errors the headset knows its pose: World is where it is.
+  const auto actual = headset->world_from_room().inverse();
+  EXPECT_LT((seen[0].room_from_world.translation() - actual.translation()).norm(), 0.001);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "hal/sim/surgeon/surgeon.h"
 #include "tests/hal/sim/hovering_headset.h"
 #include "tests/hal/sim/test_rooms.h"
 
@@ -80,7 +81,7 @@ TEST(SimHeadset, RefusesBrokenRooms) {
   room.tools.pop_back();
   EXPECT_EQ(refusal(room), "accepted");
   SimOptions surgery = hovering();
-  surgery.surgeon = true;
+  surgery.surgeon = [](const Workplace&) { return std::unique_ptr<Surgeon>(); };
   EXPECT_THAT(refusal(room, surgery), HasSubstr("no guide"));
   room.phrases.next.clear();
   EXPECT_THAT(refusal(room, surgery), HasSubstr("lacks a phrase to say"));

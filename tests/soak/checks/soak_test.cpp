@@ -6,6 +6,7 @@
 #include "engine/phantom/phantom.h"
 #include "engine/session/log/observer_list.h"
 #include "hal/fake/scripted.h"
+#include "study/surgeon/written_frame.h"
 #include "tests/soak/flaky_headset.h"
 #include "tests/soak/memory_curve.h"
 #include "tests/soak/memory_picture.h"
@@ -45,35 +46,35 @@ TEST(FlakyHeadset, PassesOnWhatItsDeviceTells) {
 }
 
 TEST(FlakyHeadset, CountsAFrameWhoseGuidanceIsTooOld) {
-  fake::FakeHeadset inner(test::pairs(1));
+  test::TellingHeadset inner;
   FlakyHeadset flaky(inner, Random(1), {0.0, 0.0, 0.0});
-  ShownFrame frame;
-  ShownHologram triangle;
-  triangle.kind = HologramKind::kTriangle;
+  engine::ShownFrame frame;
+  engine::ShownHologram triangle;
+  triangle.kind = engine::HologramKind::kTriangle;
   frame.holograms = {triangle};
   frame.pose_time = Timestamp(std::chrono::seconds(1));
   frame.display_time = frame.pose_time + std::chrono::milliseconds(100);
-  ASSERT_TRUE(flaky.display().shown(frame).ok());
+  flaky.wearer()->see(sim::written(frame));
   EXPECT_EQ(flaky.stale_frames(), 0);
   frame.display_time += Duration(1);
-  ASSERT_TRUE(flaky.display().shown(frame).ok());
+  flaky.wearer()->see(sim::written(frame));
   EXPECT_EQ(flaky.stale_frames(), 1);
 }
 
 TEST(FlakyHeadset, MovesTheMapForTheEngineAndBackForTheWearer) {
-  fake::FakeHeadset inner(test::pairs(2));
+  test::TellingHeadset inner(test::pairs(2));
   FlakyHeadset flaky(inner, Random(1), {0.0, 1.0, 0.0});
   StereoFrame frame;
   frame.map_epoch = 7;  // of whatever was in the buffer before
   ASSERT_EQ(*flaky.cameras().next(frame), Next::kFrame);
   EXPECT_EQ(frame.map_epoch, 1);
   const auto inner_from_flaky = frame.world_from_rig->inverse();
-  ShownFrame shown;
-  ShownHologram path;
+  engine::ShownFrame shown;
+  engine::ShownHologram path;
   path.points_in_world = {*frame.world_from_rig * Point<Rig>{{0.1, 0.2, 0.3}}};
   shown.holograms = {path};
-  ASSERT_TRUE(flaky.display().shown(shown).ok());
-  const auto seen = inner.display().frames().at(0).holograms.at(0).points_in_world.at(0);
+  flaky.wearer()->see(sim::written(shown));
+  const auto seen = sim::shown_in(inner.seen().at(0)).value().holograms.at(0).points_in_world.at(0);
   const auto rig = inner_from_flaky * path.points_in_world[0];
   EXPECT_LT((seen.v - rig.v).norm(), 1e-9) << "the rig stands at the origin of the scripted world";
 }

@@ -45,7 +45,7 @@ TEST_F(StatusChangesTest, TellAMessageAnewInTheNextStep) {
   told(nullptr);
   told(&kDelete);
   told(nullptr);
-  line.at.step = Step::kDigitize;
+  line.at.step = engine::Step::kDigitize;
   EXPECT_NE(told(&kDelete), "");
   EXPECT_NE(changes.new_step(), "");
   EXPECT_EQ(changes.untold(), 1);

@@ -48,7 +48,7 @@ class EveryText : public ::testing::Test {
 };
 
 TEST_F(EveryText, OfTheStepsIsTranslated) {
-  for (const Step step : each_up_to(Step::kDone)) {
+  for (const engine::Step step : each_up_to(engine::Step::kDone)) {
     expect_translated(step_text({step, "L4", Side::kLeft}));
     expect_translated(step_text({step, {}, Side::kRight}));
   }
@@ -158,7 +158,7 @@ TEST_F(EveryText, OfTheMessagesIsTranslated) {
   for (const nav::CheckAdvice& advice : test::every_advice()) {
     expect_said(ChecksMissing{advice});
   }
-  for (const Step step : each_up_to(Step::kDone)) {
+  for (const engine::Step step : each_up_to(engine::Step::kDone)) {
     expect_said(MapMoved{step});
     expect_said(ReferenceMoved{step});
   }

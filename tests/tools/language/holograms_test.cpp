@@ -34,11 +34,11 @@ void expect_translated(SceneBuilder& builder, const Guidance& guidance) {
   render::Scene scene;
   builder.write_scene(guidance, scene);
   EXPECT_EQ(english_left(all_text(scene), kHeard), "") << all_text(scene);
-  ShownFrame frame;
+  engine::ShownFrame frame;
   builder.write_shown(guidance, frame);
   ASSERT_TRUE(frame.status);
   EXPECT_EQ(english_left(frame.status->text, kHeard), "") << frame.status->text;
-  for (const ShownHologram& shown : frame.holograms) {
+  for (const engine::ShownHologram& shown : frame.holograms) {
     EXPECT_EQ(english_left(shown.text, kHeard), "") << shown.text;
   }
   hide_tool_guidance(scene);

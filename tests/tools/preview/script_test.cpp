@@ -18,7 +18,7 @@ struct Bench : ModelBench {
   Status advance(Script& script, bool ended = false) {
     return script.advance(model, stage, wall.now(), ended);
   }
-  void show(int pair, const StepOnDisplay& at) {
+  void show(int pair, const engine::StepOnDisplay& at) {
     gate.pass(Timestamp(Duration(pair)));
     auto moment = std::make_shared<Moment>();
     moment->pair = pair;
@@ -33,10 +33,10 @@ TEST(Script, WaitsForAStepAndTakesOnePictureACall) {
       Script::parse("until digitize # a remark\nscreenshot a.png\nresize 640 480\nkey s\n", "t")
           .value();
   ASSERT_TRUE(bench.advance(script).ok());
-  bench.show(1, {Step::kSetup, {}, {}});
+  bench.show(1, {engine::Step::kSetup, {}, {}});
   ASSERT_TRUE(bench.advance(script).ok());
   EXPECT_TRUE(bench.taken.empty());
-  bench.show(2, {Step::kDigitize, "L4", {}});
+  bench.show(2, {engine::Step::kDigitize, "L4", {}});
   ASSERT_TRUE(bench.advance(script).ok());
   EXPECT_THAT(bench.taken, ElementsAre("a.png"));
   ASSERT_TRUE(bench.advance(script).ok());
@@ -62,20 +62,20 @@ TEST(Script, SaysWholePhrases) {
 
 TEST(Script, CountsPairsFromWhereItWaits) {
   Bench bench;
-  bench.show(1, {Step::kSetup, {}, {}});
+  bench.show(1, {engine::Step::kSetup, {}, {}});
   Script script = Script::parse("pairs 2\n", "t").value();
   ASSERT_TRUE(bench.advance(script).ok());
-  bench.show(2, {Step::kSetup, {}, {}});
+  bench.show(2, {engine::Step::kSetup, {}, {}});
   ASSERT_TRUE(bench.advance(script).ok());
   EXPECT_FALSE(script.done());
-  bench.show(3, {Step::kSetup, {}, {}});
+  bench.show(3, {engine::Step::kSetup, {}, {}});
   ASSERT_TRUE(bench.advance(script).ok());
   EXPECT_TRUE(script.done());
 }
 
 TEST(Script, PausesUntilNothingMovesAnyMore) {
   Bench bench;
-  bench.show(1, {Step::kSetup, {}, {}});
+  bench.show(1, {engine::Step::kSetup, {}, {}});
   bench.gate.set_speed(0.0);
   ASSERT_TRUE(bench.gate.may_pass());  // A pair is on its way.
   Script script = Script::parse("pause\n", "t").value();

@@ -26,7 +26,7 @@ class StatusChanges {
  private:
   std::optional<Timestamp> first_;
   double time_s_ = 0.0;
-  std::optional<StepOnDisplay> step_;
+  std::optional<engine::StepOnDisplay> step_;
   std::string shown_;  ///< empty: none
   std::string told_;   ///< the last one that was told in this step
   int back_ = 0;       ///< how often it came back since

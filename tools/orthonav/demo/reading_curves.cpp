@@ -15,7 +15,7 @@ void ReadingCurves::stepped(const StereoFrame& frame, const engine::Inputs& inpu
   if (guidance.step != engine::Step::kGuide || !guidance.tool || !guidance.tool->measured) {
     return;
   }
-  const StepOnDisplay& at = guidance.status.at;
+  const engine::StepOnDisplay& at = guidance.status.at;
   if (screws_.empty() || screws_.back().at != at) {
     screws_.push_back({at, frame.time, {}, {}, {}});
   }

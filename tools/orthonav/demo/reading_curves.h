@@ -25,7 +25,7 @@ class ReadingCurves : public engine::LoopObserver {
 
  private:
   struct Screw {
-    StepOnDisplay at;
+    engine::StepOnDisplay at;
     Timestamp begin{};
     std::vector<double> time_s;
     std::vector<double> angle_deg;

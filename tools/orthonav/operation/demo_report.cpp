@@ -22,8 +22,8 @@ Result<std::vector<std::uint8_t>> bytes_of(const std::filesystem::path& path) {
 }
 
 /// What to look at in a step.
-const char* caption_of(Step step) {
-  constexpr std::array<const char*, kStepCount> kCaptions = {
+const char* caption_of(engine::Step step) {
+  constexpr std::array<const char*, engine::kStepCount> kCaptions = {
       "The tools are found in both cameras; nothing is registered yet.",
       "The pointer strokes the bone: one colour while recording, another once saved.",
       "The pose of the vertebra that fits the strokes is computed.",
@@ -60,9 +60,9 @@ std::vector<std::uint8_t> poster_of(const DemoReport& report,
   if (!report.video || content.pictures.empty()) {
     return {};
   }
-  const auto guided =
-      std::find_if(report.pictures.begin(), report.pictures.end(),
-                   [](const StepPicture& picture) { return picture.at.step == Step::kGuide; });
+  const auto guided = std::find_if(
+      report.pictures.begin(), report.pictures.end(),
+      [](const StepPicture& picture) { return picture.at.step == engine::Step::kGuide; });
   return guided != report.pictures.end()
              ? content.pictures[static_cast<std::size_t>(guided - report.pictures.begin())].png
              : content.pictures.back().png;

@@ -13,17 +13,17 @@ constexpr double kGuide_s = 25.0;
 constexpr double kPlaced_s = 25.0;
 constexpr double kRods_s = 25.0;
 
-double usual_s(Step step) {
+double usual_s(engine::Step step) {
   switch (step) {
-    case Step::kDigitize:
+    case engine::Step::kDigitize:
       return kDigitize_s;
-    case Step::kVerify:
+    case engine::Step::kVerify:
       return kVerify_s;
-    case Step::kGuide:
+    case engine::Step::kGuide:
       return kGuide_s;
-    case Step::kMeasureWire:
+    case engine::Step::kMeasureWire:
       return kPlaced_s;
-    case Step::kRod:
+    case engine::Step::kRod:
       return kRods_s;
     default:
       return 0.0;
@@ -51,7 +51,7 @@ double OperationEstimate::fraction(Timestamp time, const engine::Guidance& guida
     step_ = guidance.status.at;
     step_began_ = time;
   }
-  if (guidance.step == Step::kDone) {
+  if (guidance.step == engine::Step::kDone) {
     return most_ = 1.0;
   }
   // A rod joins levels; without levels there are rods alone.
@@ -60,7 +60,7 @@ double OperationEstimate::fraction(Timestamp time, const engine::Guidance& guida
     all_left_s += left_s(level);
   }
   all_left_s -= done_of_s(usual_s(guidance.step), seconds(time - step_began_)) +
-                (guidance.step == Step::kMeasureWire ? kGuide_s : 0.0);
+                (guidance.step == engine::Step::kMeasureWire ? kGuide_s : 0.0);
   const double passed_s = seconds(time - *began_);
   most_ = std::max(most_, std::min(passed_s / (passed_s + std::max(all_left_s, 1.0)), 0.99));
   return most_;

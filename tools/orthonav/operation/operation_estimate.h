@@ -13,7 +13,7 @@ class OperationEstimate {
 
  private:
   std::optional<Timestamp> began_;
-  std::optional<StepOnDisplay> step_;
+  std::optional<engine::StepOnDisplay> step_;
   Timestamp step_began_{};
   double most_ = 0.0;
 };

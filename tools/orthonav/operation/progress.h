@@ -35,7 +35,7 @@ class OperationProgress : public engine::LoopObserver {
   engine::LoopObserver* next_;
   ProgressBar bar_;
   OperationEstimate estimate_;
-  std::optional<StepOnDisplay> step_;
+  std::optional<engine::StepOnDisplay> step_;
   std::optional<Stopwatch> cameras_warned_;
   std::string warned_;
   int untold_ = 0;

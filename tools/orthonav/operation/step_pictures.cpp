@@ -33,7 +33,7 @@ Status StepPictures::finish() {
   if (!held_step_) {
     return failure_;
   }
-  const StepOnDisplay at = *held_step_;
+  const engine::StepOnDisplay at = *held_step_;
   std::string name = engine::name_of(at);
   for (char& c : name) {
     if (c == ' ' || c == '/') {

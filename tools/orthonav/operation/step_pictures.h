@@ -12,7 +12,7 @@ namespace orthonav::tools {
 
 /// The surgeon's view at one step, as a file.
 struct StepPicture {
-  StepOnDisplay at;
+  engine::StepOnDisplay at;
   std::filesystem::path path;
 };
 
@@ -30,7 +30,7 @@ class StepPictures : public PictureSink {
   std::filesystem::path folder_;
   std::vector<StepPicture> written_;
   RgbaImage held_;
-  std::optional<StepOnDisplay> held_step_;
+  std::optional<engine::StepOnDisplay> held_step_;
   bool held_shows_site_ = false;  ///< more than the status line
   std::optional<double> held_tip_to_entry_m_;
   Status failure_;  ///< the first picture that could not be written

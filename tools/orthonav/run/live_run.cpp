@@ -15,6 +15,7 @@
 #include "hal/open/open.h"
 #include "study/evaluation.h"
 #include "study/sim_scenario.h"
+#include "study/surgeon/written_frame.h"
 #include "tools/orthonav/command.h"
 #include "tools/orthonav/operation/operation_summary.h"
 #include "tools/orthonav/operation/progress.h"
@@ -264,6 +265,7 @@ class LiveRun {
       return same;
     }
     operation_->observe(&end_note_);
+    operation_->observe(&to_wearer_.emplace(*joined_));
     if (room_) {
       operation_->observe(&ground_truth_.emplace(*room_, operation_->session()));
     }
@@ -327,6 +329,7 @@ class LiveRun {
   const sim::SimHeadset* room_ = nullptr;  ///< that the cameras see, if it is simulated
   std::optional<engine::GroundTruthRecorder> ground_truth_;
   engine::EndNote end_note_;
+  std::optional<sim::ShownToWearer> to_wearer_;
   Onlookers onlookers_;
   std::unique_ptr<engine::AssembledOperation> operation_;
   Presenting presenting_;
