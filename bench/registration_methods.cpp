@@ -1,11 +1,11 @@
 #include "bench/registration_methods.h"
 
 #include <array>
-#include <cstdio>
 
 #include "bench/registration_peers.h"
 #include "engine/session/text/wording.h"
-#include "nav/posterior/decision.h"
+#include "nav/guidance/predicted_error.h"
+#include "nav/posterior/registered.h"
 #include "nav/published/registration.h"
 
 namespace orthonav::bench {
@@ -63,65 +63,18 @@ RegistrationMethod paper() {
           true};
 }
 
-RegistrationMethod best(double common_m) {
-  return {"best",
-          [common_m](const BenchLevel& level) -> Fit {
+using Search = Result<nav::Registration>(const nav::VertebraModel&, std::span<const Point<World>>,
+                                         const nav::PoseSearchRegistrationOptions&);
+
+RegistrationMethod by_search(const char* name, Search* search, double common_m) {
+  return {name,
+          [search, common_m](const BenchLevel& level) -> Fit {
             nav::PoseSearchRegistrationOptions options;
-            for (const nav::ScrewPlan& screw : level.screws) {
-              for (const Point<Vertebra> at : {screw.entry, screw.target}) {
-                options.targets.push_back(at);
-              }
-            }
+            options.targets = nav::entries_and_targets(level.screws);
             options.common.tip_m = common_m;
             options.neighbours = level.neighbours;
-            return [model = level.model, options](std::span<const Point<World>> points) {
-              return told_by(nav::register_by_pose_search(*model, points, options));
-            };
-          },
-          true};
-}
-
-RegistrationMethod posterior(double common_m) {
-  return {"posterior",
-          [common_m](const BenchLevel& level) -> Fit {
-            nav::posterior::Question question;
-            for (const nav::ScrewPlan& screw : level.screws) {
-              for (const Point<Vertebra> at : {screw.entry, screw.target}) {
-                question.targets.push_back(at);
-              }
-            }
-            question.neighbours = level.neighbours;
-            return [model = level.model, question, common_m](std::span<const Point<World>> points) {
-              Fitted fitted;
-              const auto d =
-                  nav::posterior::decided(*model, nav::posterior::observed(points, 0.0), question);
-              if (!d) {
-                fitted.reason = d.error().message;
-                return fitted;
-              }
-              fitted.found = true;
-              fitted.accepted = d->accepted;
-              fitted.world_from_vertebra = d->answer.world_from_vertebra;
-              fitted.rmse_m = d->answer.hand.spread_m;
-              char text[160];
-              std::snprintf(text, sizeof text,
-                            "wrong %.4f (99 %% within %.2f mm); size %.3f +- %.3f", d->wrong,
-                            1e3 * d->within_99_m, d->answer.size, d->answer.size_sd);
-              fitted.reason = text;
-              for (const auto& e : d->explanations) {
-                constexpr const char* kKinds[] = {"answer", "pose", "level", "mirror", "size"};
-                std::snprintf(text, sizeof text, "; %s %s %.2g", kKinds[static_cast<int>(e.kind)],
-                              e.level.c_str(), e.probability);
-                fitted.reason += text;
-                if (e.kind == nav::posterior::Explanation::Kind::kLevel && e.probability > 0.01) {
-                  fitted.fits_better = e.level;
-                }
-              }
-              fitted.covariance =
-                  [uncertainty = nav::with_common(
-                       nav::PoseUncertainty(d->answer.centre_m, d->answer.covariance), {common_m})](
-                      Point<Vertebra> at) { return predicted_covariance(uncertainty, at); };
-              return fitted;
+            return [search, model = level.model, options](std::span<const Point<World>> points) {
+              return told_by(search(*model, points, options));
             };
           },
           true};
@@ -132,8 +85,8 @@ RegistrationMethod posterior(double common_m) {
 std::vector<RegistrationMethod> registration_methods(double common_m) {
   std::vector<RegistrationMethod> methods{
       paper(),
-      best(common_m),
-      posterior(common_m),
+      by_search("best", &nav::register_by_pose_search, common_m),
+      by_search("posterior", &nav::posterior::register_by_posterior, common_m),
   };
 #ifdef ORTHONAV_BENCH_PCL
   for (auto& peer : pcl_methods()) {

@@ -50,9 +50,11 @@ double BoneSurface::mean_height_around_m(Vec3 place_m, Vec3 out, double aside_m)
   double sum_m = 0.0;
   for (int k = 0; k < kDirections; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / kDirections;
-    sum_m +=
-        at(place_m + aside_m * (std::cos(angle) * first + std::sin(angle) * second), 2.0 * aside_m)
-            .distance_m;
+    const Vec3 beside_m = place_m + aside_m * (std::cos(angle) * first + std::sin(angle) * second);
+    // Both lie on the surface: the nearer one leaves less to be searched.
+    const Vec3 other_m = place_near(beside_m);
+    const bool nearer = (other_m - beside_m).squared_norm() < aside_m * aside_m;
+    sum_m += near(beside_m, nearer ? other_m : place_m).distance_m;
   }
   return sum_m / kDirections;
 }

@@ -11,6 +11,7 @@
 #include "base/translation.h"
 #include "nav/geometry/matrix_as.h"
 #include "nav/registration/pose_candidates.h"
+#include "nav/registration/shaft_collision.h"
 
 namespace orthonav::nav::posterior {
 namespace {
@@ -32,6 +33,15 @@ std::vector<Point<World>> tips_of(const Observations& observations) {
   return tips;
 }
 
+double collisions(const Observations& observations, const VertebraModel& model,
+                  const Transform<World, Vertebra>& pose) {
+  std::vector<Vec3> shafts;
+  for (const StrokePoint& p : observations.strokes) {
+    shafts.push_back(p.shaft);
+  }
+  return shaft_collision_fraction(model, pose, tips_of(observations), shafts);
+}
+
 /// A hypothesis with its posterior.
 struct Tried {
   Explanation::Kind kind = Explanation::Kind::kAnswer;
@@ -40,14 +50,24 @@ struct Tried {
   const VertebraModel* model = nullptr;
   Transform<World, Vertebra> start;
   std::optional<Posterior> found;
+  double log_shafts = 0.0;
 
-  [[nodiscard]] double log_weight() const {
-    return found ? log_odds + found->log_evidence : kImpossible;
+  [[nodiscard]] double log_evidence() const {
+    return found ? found->log_evidence + log_shafts : kImpossible;
   }
+  [[nodiscard]] double log_weight() const { return log_odds + log_evidence(); }
   void look(const Observations& observations, const Prior& prior, Effort effort,
-            Averaged* shared = nullptr) {
+            std::unique_ptr<Averaged>& shared, double least_weight = kImpossible) {
     found = posterior_of(observations, BoneSurface(*model, kind == Explanation::Kind::kMirror),
-                         prior, found ? found->world_from_vertebra : start, effort, shared);
+                         prior, found ? found->world_from_vertebra : start, effort, shared,
+                         least_weight - log_odds);
+    // Of the mirror image the shafts tell nothing: it would have to be mirrored for them.
+    if (found && kind != Explanation::Kind::kMirror) {
+      const double rows = static_cast<double>(
+          std::min(Averaged::kUnits, units_of(observations, Averaged::kUnits).size()));
+      log_shafts = rows * (collisions(observations, *model, found->world_from_vertebra) *
+                           std::log(prior.shaft_in_bone / (1.0 - prior.shaft_in_bone)));
+    }
   }
 };
 
@@ -239,7 +259,8 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   // All under the hand of the best one, which is told anew when that is another.
   std::unique_ptr<Averaged> rough;
   for (int round = 0; round < 3; ++round) {
-    tried[0].look(observations, prior, Effort::kRough);
+    rough.reset();
+    tried[0].look(observations, prior, Effort::kRough, rough);
     if (!tried[0].found) {
       tried.erase(tried.begin());
       if (tried.empty()) {
@@ -247,9 +268,8 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
       }
       continue;
     }
-    rough = std::make_unique<Averaged>(observations, prior, tried[0].found->hand);
     for (std::size_t i = 1; i < tried.size(); ++i) {
-      tried[i].look(observations, prior, Effort::kRough, rough.get());
+      tried[i].look(observations, prior, Effort::kRough, rough, tried[0].log_weight() - kFarWorse);
     }
     const auto best = std::max_element(
         tried.begin(), tried.end(),
@@ -273,42 +293,53 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   mirror.start = mirrored_start(model, cloud, tried[0].found->world_from_vertebra);
   tried.push_back(mirror);
   for (std::size_t i = own_poses; i < tried.size(); ++i) {
-    tried[i].look(observations, prior, Effort::kRough, rough.get());
+    tried[i].look(observations, prior, Effort::kRough, rough, tried[0].log_weight() - kFarWorse);
   }
+  // Explanations that are far worse are not looked at closely.
   const double own = tried[0].log_weight();
-  std::erase_if(tried, [&](const Tried& t) { return !(t.log_weight() >= own - kFarWorse); });
-  tried[0].look(observations, prior, Effort::kFull);
+  const double own_evidence = tried[0].log_evidence();
+  const auto is_close = [&](const Tried& t) { return t.log_weight() >= own - kFarWorse; };
+  const auto far = std::stable_partition(tried.begin() + 1, tried.end(), is_close);
+  std::vector<Explanation> far_worse;
+  for (auto t = far; t != tried.end(); ++t) {
+    if (t->found) {
+      far_worse.push_back({t->kind, t->level, std::exp(t->log_weight() - own), 1.0,
+                           t->log_evidence() - own_evidence, t->found->world_from_vertebra});
+    }
+  }
+  tried.erase(far, tried.end());
+  std::unique_ptr<Averaged> full;
+  tried[0].look(observations, prior, Effort::kFull, full);
   if (!tried[0].found) {
     return no_pose;
   }
-  Averaged full(observations, prior, tried[0].found->hand);
   for (std::size_t i = 1; i < tried.size(); ++i) {
-    tried[i].look(observations, prior, Effort::kFull, &full);
+    tried[i].look(observations, prior, Effort::kFull, full);
   }
   Decision out;
   out.answer = *tried[0].found;
   const Transform<World, Vertebra>& answer = out.answer.world_from_vertebra;
+  out.shaft_collision_fraction = collisions(observations, model, answer);
 
   // The same bone of another size is an explanation of its own.
-  double sum = 0.0;
-  const double log_answer = tried[0].log_weight();
-  const auto add = [&](const Explanation& e) {
-    sum += e.probability;
-    out.explanations.push_back(e);
-  };
   const auto odds = [](double log_odds) { return std::exp(std::min(log_odds, 300.0)); };
   const auto errors = errors_m(out.answer, answer, question.targets);
-  add({Explanation::Kind::kAnswer,
-       {},
-       1.0 - prior.size_share,
-       share_above(errors, question.most_m)});
+  out.explanations.push_back({Explanation::Kind::kAnswer,
+                              {},
+                              1.0 - prior.size_share,
+                              share_above(errors, question.most_m),
+                              0.0,
+                              answer});
   const auto size_below = [&](double size) {
     return normal_cdf(std::log(size / out.answer.size) / std::max(1e-9, out.answer.size_sd));
   };
-  add({Explanation::Kind::kSize,
+  out.explanations.push_back(
+      {Explanation::Kind::kSize,
        {},
        prior.size_share * odds(out.answer.size_log_evidence),
-       1.0 - (size_below(1.0 + question.size_off) - size_below(1.0 - question.size_off))});
+       1.0 - (size_below(1.0 + question.size_off) - size_below(1.0 - question.size_off)),
+       out.answer.size_log_evidence,
+       answer});
   for (std::size_t i = 1; i < tried.size(); ++i) {
     const Tried& t = tried[i];
     if (!t.found) {
@@ -319,28 +350,39 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
     if (other_pose && apart_m(t.found->world_from_vertebra, answer, question.targets) < kSame_m) {
       continue;
     }
-    add({other_pose ? Explanation::Kind::kOtherPose : t.kind, t.level,
-         odds(t.log_weight() - log_answer),
+    out.explanations.push_back(
+        {other_pose ? Explanation::Kind::kOtherPose : t.kind, t.level,
+         odds(t.log_weight() - tried[0].log_weight()),
          other_pose ? share_above(errors_m(*t.found, answer, question.targets), question.most_m)
-                    : 1.0});
+                    : 1.0,
+         t.log_evidence() - tried[0].log_evidence(), t.found->world_from_vertebra});
+  }
+  for (Explanation& e : far_worse) {
+    e.kind = e.kind == Explanation::Kind::kAnswer ? Explanation::Kind::kOtherPose : e.kind;
+    out.explanations.push_back(e);
+  }
+  double sum = 0.0;
+  for (const Explanation& e : out.explanations) {
+    sum += e.probability;
   }
   out.wrong = 0.0;
   for (Explanation& e : out.explanations) {
     e.probability /= sum;
     out.wrong += e.probability * e.wrong;
   }
-  out.scatter_predicted = scatter_predicted(prior, out.answer.hand.spread_m);
+  out.most_scatter_m = scatter_exceeded_m(prior, question.least_predicted);
+  out.inlier_fraction = out.answer.hand.inliers / static_cast<double>(tips.size());
   constexpr double kOutlierPower = 18.0;  // 1 of 20 points on average, 3 of 10 once in 600
-  out.outliers_predicted =
-      std::pow(out.answer.hand.inliers / static_cast<double>(tips.size()), kOutlierPower);
+  out.least_inlier_fraction = std::pow(question.least_predicted, 1.0 / kOutlierPower);
   out.accepted = out.wrong <= question.may_be_wrong &&
-                 out.scatter_predicted >= question.least_predicted &&
-                 out.outliers_predicted >= question.least_predicted;
+                 out.answer.hand.spread_m <= out.most_scatter_m &&
+                 out.inlier_fraction >= out.least_inlier_fraction;
   double squares_m2 = 0.0;
   for (const double e : errors) {
     squares_m2 += e * e / static_cast<double>(errors.size());
   }
   out.rms_m = std::sqrt(squares_m2);
+  out.within_95_m = errors[(errors.size() - 1) * 95 / 100];
   out.within_99_m = errors[(errors.size() - 1) * 99 / 100];
   return out;
 }

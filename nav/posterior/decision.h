@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "base/transform.h"
 #include "nav/posterior/posterior.h"
 #include "nav/registration/registration.h"
 
@@ -28,21 +29,24 @@ struct Explanation {
   Kind kind = Kind::kAnswer;
   std::string level;  ///< of kLevel
   double probability = 0.0;
-  double wrong = 0.0;  ///< probability that the answer is wrong if this is so
+  double wrong = 0.0;      ///< probability that the answer is wrong if this is so
+  double log_ratio = 0.0;  ///< of its evidence to the answer's, without odds
+  Transform<World, Vertebra> world_from_vertebra;
 };
 
 struct Decision {
   Posterior answer;
   std::vector<Explanation> explanations;  ///< the answer first
   double wrong = 1.0;                     ///< probability that the answer is wrong
-  /// Probability of scatter, and of a share of points off the bone, as large or larger, by the
-  /// prior.
-  double scatter_predicted = 0.0;
-  double outliers_predicted = 0.0;
+  double most_scatter_m = 0.0;  ///< of the points' heights, that the prior predicts often enough
+  double inlier_fraction = 0.0;
+  double least_inlier_fraction = 0.0;  ///< likewise
+  double shaft_collision_fraction = 0.0;
   bool accepted = false;
-  /// Of the error at the worst target, under the answer: root mean square, and what 99 of 100
-  /// errors stay below.
+  /// Of the error at the worst target, under the answer: root mean square, and what 95 and 99 of
+  /// 100 errors stay below.
   double rms_m = 0.0;
+  double within_95_m = 0.0;
   double within_99_m = 0.0;
 };
 

@@ -96,7 +96,8 @@ std::vector<Unit> in_space(const Observations& observations, std::size_t most) {
 
 }  // namespace
 
-Observations observed(std::span<const Point<World>> points, double tip_radius_m) {
+Observations observed(std::span<const Point<World>> points, double tip_radius_m,
+                      std::span<const Vec3> shafts) {
   Observations out;
   out.tip_radius_m = tip_radius_m;
   const std::vector<bool> is_new = different(points);
@@ -104,11 +105,11 @@ Observations observed(std::span<const Point<World>> points, double tip_radius_m)
   constexpr std::size_t kExcursion = 15;
   int stroke = 0;
   std::size_t leapt = 0;  // where the last stroke begins
+  std::vector<StrokePoint>& all = out.strokes;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_new[i]) {
       continue;
     }
-    std::vector<StrokePoint>& all = out.strokes;
     if (!all.empty() && (points[i] - all.back().tip).norm() > kLeap_m) {
       const bool back = leapt > 0 && all.size() - leapt <= kExcursion &&
                         (points[i] - all[leapt - 1].tip).norm() <= kLeap_m;
@@ -122,7 +123,8 @@ Observations observed(std::span<const Point<World>> points, double tip_radius_m)
         leapt = all.size();
       }
     }
-    all.push_back({points[i], stroke, static_cast<double>(i) * kPeriod_s});
+    all.push_back({points[i], stroke, static_cast<double>(i) * kPeriod_s,
+                   shafts.size() == points.size() ? shafts[i] : Vec3{}});
   }
   out.in_time =
       static_cast<std::size_t>(2 * (stroke + 1)) < std::min<std::size_t>(160, out.strokes.size());

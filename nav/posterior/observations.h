@@ -15,6 +15,7 @@ struct StrokePoint {
   Point<World> tip;
   int stroke = 0;       ///< which movement of the hand, ascending
   double time_s = 0.0;  ///< ascending within a stroke; meaningless if not `Observations::in_time`
+  Vec3 shaft{};         ///< unit, from the tip back along the pointer; zero if not known
 };
 
 /// A place of the bare bone on which the tip was pressed for a moment.
@@ -38,8 +39,9 @@ struct Observations {
 /// Observations from points in the order of time, 1/30 s apart, whose strokes are not marked: a
 /// leap of more than 8 mm begins another stroke unless the tip is back within 15 points, and where
 /// most steps are leaps the points are in no order. A point within 0.05 mm of an earlier one is the
-/// same sample, repeated or resampled, and is left out.
-[[nodiscard]] Observations observed(std::span<const Point<World>> points, double tip_radius_m);
+/// same sample, repeated or resampled, and is left out. `shafts`: of each point, or none.
+[[nodiscard]] Observations observed(std::span<const Point<World>> points, double tip_radius_m,
+                                    std::span<const Vec3> shafts = {});
 
 /// Consecutive points of a stroke that count as one row; of points in no order, those of one cell
 /// of space; or a press. Depends on places in World only, so that all hypotheses have the same.

@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 #include <queue>
+#include <set>
 
 #include "nav/statistics/median.h"
 
@@ -389,6 +390,10 @@ struct Averaged::Units {
     return place->second;
   }
 
+  const Eigen::MatrixXd& of_field(const Field& field) {
+    return kept(fields, field, [&](const Unit& a, const Unit& b) { return between(a, b, field); });
+  }
+
   /// Empty where the covariance is not positive definite.
   const std::optional<Factor>& factor(const Node& node) {
     auto [place, is_new] = factors.try_emplace(node);
@@ -400,10 +405,6 @@ struct Averaged::Units {
     const Field model{prior.model_length_m, true};
     const auto m = static_cast<Eigen::Index>(units.size());
     Eigen::MatrixXd c = Eigen::MatrixXd::Zero(m, m);
-    const auto of_field = [&](const Field& field) -> const Eigen::MatrixXd& {
-      return kept(fields, field,
-                  [&](const Unit& a, const Unit& b) { return between(a, b, field); });
-    };
     // The model's error is that of presses too; tissue is beside them.
     const auto n = static_cast<Eigen::Index>(strokes());
     if (mix.model > 0.0) {
@@ -600,7 +601,8 @@ namespace {
 /// What a point of the grid says of the heights at a pose.
 struct Answer {
   Part part;
-  double log_weight = kNever;  ///< evidence and prior, the pose integrated
+  double log_weight = kNever;              ///< evidence and prior, the pose integrated
+  Eigen::Matrix<double, kMoved, 1> moved;  ///< mean of the columns that are integrated
   // Where all is asked for:
   double log_here = kNever;  ///< the pose being the one that the heights are of
   double log_size = kNever;  ///< the pose and the size integrated
@@ -695,12 +697,13 @@ std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, con
   out.part.of = mix;
   out.part.noise_m = std::sqrt(over.noise_m2);
   out.part.standoff_m = over.mean_m;
+  out.moved = solved.col(2) - over.mean_m * solved.col(0);
   Vector6 scale;
   scale << 1.0, 1.0, 1.0, 1.0 / kLever_m, 1.0 / kLever_m, 1.0 / kLever_m;
   const Vector6 by_standoff = scale.asDiagonal() * solved.col(0).head<6>();
   const Matrix6 inverse = llt.solve(Moved::Identity()).topLeftCorner<6, 6>();
   Eigen::Map<Vector6> step(out.part.step.data());
-  step = scale.asDiagonal() * solved.col(2).head<6>() - over.mean_m * by_standoff;
+  step = scale.asDiagonal() * out.moved.head<6>();
   Eigen::Map<Rows6> covariance(out.part.covariance.data());
   covariance = over.noise_m2 * (scale.asDiagonal() * inverse * scale.asDiagonal()) +
                over.variance_m2 * by_standoff * by_standoff.transpose();
@@ -768,33 +771,46 @@ void sort_by_weight(Answers& answers) {
   });
 }
 
-/// Every point of the grid that has weight: from a few starts, the neighbours of whatever is
-/// likely.
-Answers explored(Averaged::Units& units, const Columns& columns) {
+/// A few points of all the grid.
+std::vector<Node> scattered(bool in_time) {
+  std::vector<Node> out;
+  for (const int share : in_time ? std::vector<int>{2, 5, 8} : std::vector<int>{0}) {
+    for (const int time : in_time ? std::vector<int>{3, 6} : std::vector<int>{0}) {
+      out.push_back({share, time, 0, kNoLength, 0, 0});
+      out.push_back({share, time, 3, kNoLength, 0, 0});
+      out.push_back({share, time, 0, kNoLength, 3, 0});
+      out.push_back({share, time, 0, kNoLength, 0, 3});
+    }
+  }
+  return out;
+}
+
+/// The points of the grid that have weight, the likeliest first, at most `kKept` of them: from a
+/// few starts, the neighbours of whatever is likely. Empty where a good many of them leave the log
+/// evidence far below `least`.
+std::vector<Node> explored(Averaged::Units& units, const Columns& columns,
+                           std::span<const Node> starts, double least) {
   constexpr double kLikely = 6.0;
   constexpr std::size_t kMost = 700;
-  std::map<Node, std::optional<Answer>> seen;
+  constexpr std::size_t kKept = 48;
+  constexpr std::size_t kGoodMany = 100;
+  constexpr double kFarBelow = 40.0;
+  std::set<Node> seen;
+  std::vector<std::pair<double, Node>> found;
   std::priority_queue<std::pair<double, Node>> likely;
   double most = kNever;
   const auto look = [&](const Node& node) {
-    if (seen.size() >= kMost || seen.contains(node)) {
+    if (seen.size() >= kMost || !seen.insert(node).second) {
       return;
     }
-    const auto found = answer(units, columns, node, Asked::kWeight);
-    if (found) {
-      most = std::max(most, found->log_weight);
-      likely.emplace(found->log_weight, node);
+    if (const auto a = answer(units, columns, node, Asked::kWeight)) {
+      most = std::max(most, a->log_weight);
+      likely.emplace(a->log_weight, node);
+      found.emplace_back(-a->log_weight, node);
     }
-    seen.emplace(node, found);
   };
-  const bool in_time = units.observations.in_time;
-  for (const int share : in_time ? std::vector<int>{2, 5, 8} : std::vector<int>{0}) {
-    for (const int time : in_time ? std::vector<int>{3, 6} : std::vector<int>{0}) {
-      look({share, time, 0, kNoLength, 0, 0});
-      look({share, time, 3, kNoLength, 0, 0});
-      look({share, time, 0, kNoLength, 3, 0});
-      look({share, time, 0, kNoLength, 0, 3});
-    }
+  for (const Node& node : starts) {
+    look(node);
   }
   while (!likely.empty()) {
     const auto [log_weight, node] = likely.top();
@@ -802,17 +818,20 @@ Answers explored(Averaged::Units& units, const Columns& columns) {
     if (log_weight < most - kLikely) {
       break;
     }
+    if (seen.size() >= kGoodMany && most < least - kFarBelow) {
+      return {};
+    }
     for (const Node& next : neighbours_of(node, units)) {
       look(next);
     }
   }
-  Answers out;
-  for (const auto& [node, found] : seen) {
-    if (found && found->log_weight > most - kLikely) {
-      out.emplace_back(node, *found);
+  std::sort(found.begin(), found.end());
+  std::vector<Node> out;
+  for (const auto& [less, node] : found) {
+    if (out.size() < kKept && -less > most - kLikely) {
+      out.push_back(node);
     }
   }
-  sort_by_weight(out);
   return out;
 }
 
@@ -857,10 +876,10 @@ Transform<Vertebra, World> stepped(const Touches& t, const Vector6& step) {
   return {rotation, centre - rotation * centre_in_world};
 }
 
+/// `answers`: the likeliest first.
 Posterior assembled(const Touches& t, const Hand& hand, Answers answers) {
   Posterior out;
   out.centre_m = t.centre_m;
-  sort_by_weight(answers);
   double all = kNever, with_size = kNever;
   for (const auto& [node, a] : answers) {
     all = log_sum(all, a.log_weight);
@@ -879,9 +898,11 @@ Posterior assembled(const Touches& t, const Hand& hand, Answers answers) {
     mean += a.part.weight * Eigen::Map<const Vector6>(a.part.step.data());
     out.noise_m += a.part.weight * a.part.noise_m;
     out.standoff_m += a.part.weight * a.part.standoff_m;
-    uneven_m2 += a.part.weight * a.part.noise_m * a.part.noise_m *
-                 (a.part.of.tissue * a.part.of.tissue + a.part.of.stroke * a.part.of.stroke +
-                  a.part.of.model * a.part.of.model);
+    const Mixture& of = a.part.of;
+    const double fields = of.tissue * of.tissue + of.model * of.model;
+    const double strokes = of.stroke * of.stroke;
+    uneven_m2 += a.part.weight * a.part.noise_m * a.part.noise_m * (fields + strokes);
+    out.across_strokes += a.part.weight * fields / (fields + strokes + 1.0);
   }
   out.size = std::exp(size);
   out.size_sd = std::sqrt(std::max(0.0, size_square - size * size));
@@ -897,6 +918,58 @@ Posterior assembled(const Touches& t, const Hand& hand, Answers answers) {
   Eigen::Map<Rows6>(out.covariance.data()) = covariance;
   out.world_from_vertebra = stepped(t, mean).inverse();
   out.hand = hand;
+  return out;
+}
+
+/// The mean heights of the strokes' units by the likeliest points of the grid, without noise.
+std::vector<EstimatedHeight> heights_of(Averaged::Units& units, const Touches& t,
+                                        const Answers& likeliest_first) {
+  constexpr std::size_t kFew = 3;  // the others would not change the picture
+  const Columns columns = units.columns_of(t);
+  const auto m = columns.rows();
+  const auto n = static_cast<Eigen::Index>(units.strokes());
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(n);
+  double sum = 0.0;
+  for (const auto& [node, a] :
+       std::span(likeliest_first).first(std::min(kFew, likeliest_first.size()))) {
+    const auto& factor = units.factor(node);
+    const Mixture& of = a.part.of;
+    const Eigen::VectorXd valleys = a.moved(kValley) * columns.col(kValley);
+    const Eigen::VectorXd left = columns.col(kHeight) - columns.leftCols<kMoved>() * a.moved -
+                                 a.part.standoff_m * columns.col(kStandoff);
+    const Eigen::VectorXd solved = factor->root.solve(left);
+    // What the covariance of the fields, and of the strokes' own heights, makes of what is left.
+    Eigen::VectorXd fields = Eigen::VectorXd::Zero(m);
+    const auto add = [&](double sd, const Field& field, Eigen::Index rows) {
+      if (sd > 0.0) {
+        fields.head(n) += sd * sd *
+                          (units.of_field(field).selfadjointView<Eigen::Lower>() *
+                           Eigen::VectorXd((Eigen::VectorXd(m) << solved.head(rows),
+                                            Eigen::VectorXd::Zero(m - rows))
+                                               .finished()))
+                              .head(n);
+      }
+    };
+    add(of.tissue, {of.length_m, of.smooth}, n);
+    add(of.model, {units.prior.model_length_m, true}, m);
+    std::map<int, double> of_stroke;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      of_stroke[units.units[static_cast<std::size_t>(k)].stroke] += solved(k);
+    }
+    const double p = std::exp(a.log_weight - likeliest_first.front().second.log_weight);
+    sum += p;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const int stroke = units.units[static_cast<std::size_t>(k)].stroke;
+      mean(k) += p * (a.part.standoff_m + valleys(k) + fields(k) +
+                      of.stroke * of.stroke * of_stroke[stroke]);
+    }
+  }
+  std::vector<EstimatedHeight> out;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Unit& unit = units.units[static_cast<std::size_t>(k)];
+    out.push_back({t.from_world * Point<World>{0.5 * (unit.quarter_m + unit.three_quarters_m)},
+                   mean(k) / sum});
+  }
   return out;
 }
 
@@ -940,9 +1013,9 @@ Averaged::~Averaged() = default;
 
 std::optional<Posterior> posterior_of(const Observations& observations, const BoneSurface& bone,
                                       const Prior& prior, const Transform<World, Vertebra>& start,
-                                      Effort effort, Averaged* shared) {
+                                      Effort effort, std::unique_ptr<Averaged>& shared,
+                                      double least) {
   constexpr std::size_t kFewestPoints = 24;
-  constexpr std::size_t kKept = 48;
   constexpr double kStands_m = 3e-6;
   constexpr double kNearlyStands_m = 3e-5;
   constexpr double kAgain_m = 0.0001;
@@ -955,7 +1028,7 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   };
   const auto blocks = blocks_of(observations, units_of(observations, Averaged::kUnits));
   Transform<Vertebra, World> from_world = start.inverse();
-  std::unique_ptr<Averaged> own;
+  const bool told_here = shared == nullptr;
   const bool full = effort == Effort::kFull;
   const int most_rounds = full ? 3 : 1;
   // What the points tell of the hand, and where the grid has weight, is looked at where the descent
@@ -963,20 +1036,15 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   Touches here;
   std::vector<Node> nodes;
   for (int round = 0; round < most_rounds; ++round) {
-    if (shared == nullptr) {
-      own = std::make_unique<Averaged>(
+    if (told_here) {
+      shared = std::make_unique<Averaged>(
           observations, prior,
           hand_at(observations, prior, blocks,
                   touches_at(observations, bone, from_world, {}, nullptr)));
     }
-    Averaged::Units& few = (shared != nullptr ? shared : own.get())->few();
+    Averaged::Units& few = shared->few();
     here = touches_at(observations, bone, from_world, few.wanted, nullptr);
-    nodes.clear();
-    for (const auto& [node, a] : explored(few, few.columns_of(here))) {
-      if (nodes.size() < kKept) {
-        nodes.push_back(node);
-      }
-    }
+    nodes = explored(few, few.columns_of(here), scattered(observations.in_time), least);
     if (nodes.empty()) {
       return std::nullopt;
     }
@@ -987,17 +1055,25 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
       break;
     }
   }
-  Averaged& averaged = shared != nullptr ? *shared : *own;
-  Averaged::Units& units = full ? averaged.all() : averaged.few();
+  Averaged::Units& units = full ? shared->all() : shared->few();
   if (full) {
     here = touches_at(observations, bone, from_world, {}, nullptr);
+    // Rows that are shorter see shorter fields.
+    nodes = explored(units, units.columns_of(here), nodes, kNever);
     descend(units, bone, steering(nodes), 3, kNearlyStands_m, here);
   }
   Answers answers = answers_at(units, here, nodes);
   if (answers.empty()) {
     return std::nullopt;
   }
-  return assembled(here, averaged.hand(), std::move(answers));
+  sort_by_weight(answers);
+  std::vector<EstimatedHeight> heights;
+  if (full && told_here) {
+    heights = heights_of(units, here, answers);
+  }
+  Posterior out = assembled(here, shared->hand(), std::move(answers));
+  out.heights = std::move(heights);
+  return out;
 }
 
 }  // namespace orthonav::nav::posterior

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -108,6 +109,11 @@ struct Posterior {
   double noise_m = 0.0;     ///< SD of points about the bone
   double standoff_m = 0.0;  ///< mean height of the tip above the bone
   double uneven_m = 0.0;    ///< SD over the bone of what is not noise
+  /// Correlation of the heights of two points at the same place, of different strokes.
+  double across_strokes = 0.0;
+  /// How high the tip was along the strokes, without noise; where it was asked for in full and
+  /// nothing was shared.
+  std::vector<EstimatedHeight> heights;
   Hand hand;
 };
 
@@ -136,12 +142,12 @@ struct OverStandoff {
 enum class Effort : std::uint8_t { kRough, kFull };
 
 /// The posterior near `start`. `shared`: under the hand of the best explanation, for all others to
-/// be compared with it; null: the hand is told by the points at this pose. Empty where the points
-/// leave a motion undetermined.
-[[nodiscard]] std::optional<Posterior> posterior_of(const Observations& observations,
-                                                    const BoneSurface& bone, const Prior& prior,
-                                                    const Transform<World, Vertebra>& start,
-                                                    Effort effort = Effort::kFull,
-                                                    Averaged* shared = nullptr);
+/// be compared with it; null: the hand is told by the points at this pose, and is there afterwards.
+/// Empty where the points leave a motion undetermined, or where it is soon plain that the log
+/// evidence is less than `least`.
+[[nodiscard]] std::optional<Posterior> posterior_of(
+    const Observations& observations, const BoneSurface& bone, const Prior& prior,
+    const Transform<World, Vertebra>& start, Effort effort, std::unique_ptr<Averaged>& shared,
+    double least = -std::numeric_limits<double>::infinity());
 
 }  // namespace orthonav::nav::posterior

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "base/random.h"
 
@@ -25,11 +26,17 @@ double varies_by_less(const Prior& prior, double sd_m, double s_m) {
 }
 
 double model_off_by_less(const Prior& prior, double sd_m) {
-  if (sd_m < prior.exact_m) {
-    return prior.exact_share * sd_m / prior.exact_m;
-  }
-  const double above = std::log(sd_m / prior.exact_m) / std::log(prior.worst_m / prior.exact_m);
-  return std::min(1.0, prior.exact_share + (1.0 - prior.exact_share) * above);
+  const auto of_any = [&](double sd) {
+    if (sd < prior.exact_m) {
+      return prior.exact_share * sd / prior.exact_m;
+    }
+    const double above = std::log(sd / prior.exact_m) / std::log(prior.worst_m / prior.exact_m);
+    return std::min(1.0, prior.exact_share + (1.0 - prior.exact_share) * above);
+  };
+  const double less = of_any(prior.least_off_m);
+  return less < 1.0                 ? std::max(0.0, of_any(sd_m) - less) / (1.0 - less)
+         : sd_m < prior.least_off_m ? 0.0
+                                    : 1.0;
 }
 
 double log_density_of_noise(const Prior& prior, double noise_m) {
@@ -37,10 +44,10 @@ double log_density_of_noise(const Prior& prior, double noise_m) {
   return -0.5 * z * z - std::log(prior.noise_log_sd * std::sqrt(2.0 * std::numbers::pi));
 }
 
-double scatter_predicted(const Prior& prior, double spread_m) {
+double scatter_exceeded_m(const Prior& prior, double probability) {
   constexpr int kDraws = 4096;
   Random random(7);
-  double above = 0.0;
+  std::vector<double> spreads_m;
   for (int k = 0; k < kDraws; ++k) {
     const bool bare = random.uniform() < prior.bare_share;
     const double s_m = std::abs(random.normal(0.0, bare ? prior.bare_m : prior.tissue_m));
@@ -58,9 +65,11 @@ double scatter_predicted(const Prior& prior, double spread_m) {
     const double noise_m = prior.noise_m * std::exp(random.normal(0.0, prior.noise_log_sd));
     const double all_m2 =
         tissue_m * tissue_m + stroke_m * stroke_m + model_m * model_m + noise_m * noise_m;
-    above += all_m2 >= spread_m * spread_m ? 1.0 : 0.0;
+    spreads_m.push_back(std::sqrt(all_m2));
   }
-  return above / kDraws;
+  const auto at = spreads_m.end() - 1 - static_cast<std::ptrdiff_t>(probability * kDraws);
+  std::nth_element(spreads_m.begin(), at, spreads_m.end());
+  return *at;
 }
 
 }  // namespace orthonav::nav::posterior
