@@ -17,21 +17,21 @@ namespace {
 
 using Kind = RefusalReason::Kind;
 
-struct Bone {
+struct PhantomBone {
   engine::CaseLevel from;
   std::shared_ptr<const VertebraModel> model;
-  explicit Bone(const char* label)
+  explicit PhantomBone(const char* label)
       : from(engine::phantom({label}).levels.at(0)),
         model(VertebraModel::prepare(from.mesh).value()) {}
 };
-const Bone& l4() {
-  static const Bone the("L4");
+const PhantomBone& l4() {
+  static const PhantomBone the("L4");
   return the;
 }
 
-PoseSearchRegistrationOptions options_of(const Bone& bone) {
+PoseSearchRegistrationOptions options_of(const PhantomBone& subject) {
   PoseSearchRegistrationOptions o;
-  for (const ScrewPlan& screw : bone.from.screws) {
+  for (const ScrewPlan& screw : subject.from.screws) {
     o.targets.insert(o.targets.end(), {screw.entry, screw.target});
   }
   return o;
@@ -124,7 +124,7 @@ TEST(PosteriorRegistration, TissueIsSeenWhereItLiesAndAsksForPresses) {
 }
 
 TEST(PosteriorRegistration, StrokesOfAnotherLevelAreRefusedByItsName) {
-  const Bone l2("L2");
+  const PhantomBone l2("L2");
   const auto foreign = test::digitize_strokes(l2.from.mesh, test::StrokeVariant::kFull, 1).value();
   PoseSearchRegistrationOptions o = options_of(l4());
   o.neighbours.push_back({"L2", l2.model.get()});
