@@ -15,6 +15,7 @@
 namespace orthonav::test {
 namespace {
 
+using engine::HologramKind;
 using engine::label_of;
 using render::Float3;
 
