@@ -90,7 +90,10 @@ TEST_P(DeviceContract, ReusesTheBuffersOfAFrame) {
       buffers.insert(frame.left.pixels.data());
     }
   }
-  EXPECT_EQ(buffers.size(), 1u);
+  // A device may exchange a frame for one of a few of its own, so that nothing is copied.
+  constexpr std::size_t kMaxBuffers = 4;
+  EXPECT_GE(buffers.size(), 1u);
+  EXPECT_LE(buffers.size(), kMaxBuffers);
 }
 
 TEST_P(DeviceContract, HasAClockThatNeverGoesBackAndKnowsItsPairs) {

@@ -159,7 +159,6 @@ TEST_F(Guiding, ATipBesideTheScrewIsOnItsWayHoweverDeepItIs) {
     s.tracker().guide = guide_at(kLeftEntry + Vec3{beside_m, -0.004, 0}, 0.0);
     const Guidance& g = s.pairs(2);
     EXPECT_THAT(drawn(g), ::testing::ElementsAre(kEntry, kTrajectory, kDepth, kStatus, kNumbers));
-    EXPECT_EQ(drawn(g), told(g));
     EXPECT_EQ(shown(g).status->text, "guide L4 left | tip to the entry");
   }
   s.tracker().guide = guide_at(kLeftEntry + Vec3{0.0149, -0.004, 0}, 0.0);
@@ -209,6 +208,9 @@ TEST_F(Guiding, AFrameThatLightsUpTooLateShowsNoTriangle) {
 
 TEST_F(Guiding, TicksAScrewThatIsDone) {
   s.says("next");
+  // At the other screw: on the way there its entry would be named.
+  s.tracker().guide = guide_at(kLeftEntry - Vec3{2.0 * kLeftEntry.x, 0, 0}, 0.0);
+  s.pairs(2);
   std::size_t ticks = 0;
   for (const render::TextItem& text : scene_of(s.pair()).texts) {
     if (kind_of(text.label) == kEntry) {
