@@ -876,8 +876,8 @@ Transform<Vertebra, World> stepped(const Touches& t, const Vector6& step) {
   return {rotation, centre - rotation * centre_in_world};
 }
 
-/// `answers`: the likeliest first.
-Posterior assembled(const Touches& t, const Hand& hand, Answers answers) {
+/// `answers`: the likeliest first; their weights are set, and their steps from the mean.
+Posterior assembled(const Touches& t, const Hand& hand, Answers& answers) {
   Posterior out;
   out.centre_m = t.centre_m;
   double all = kNever, with_size = kNever;
@@ -1071,7 +1071,7 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   if (full && told_here) {
     heights = heights_of(units, here, answers);
   }
-  Posterior out = assembled(here, shared->hand(), std::move(answers));
+  Posterior out = assembled(here, shared->hand(), answers);
   out.heights = std::move(heights);
   return out;
 }
