@@ -6,7 +6,7 @@
 namespace orthonav::engine::golden {
 namespace {
 
-/// The step `placed`, its wire off the plan by the angle about a place beside the entry.
+/// The step `measure`, its wire off the plan by the angle about a place beside the entry.
 GoldenScene placed(const std::string& name, const std::string& what, double angle_deg,
                    double beside_m) {
   const nav::ScrewGuidance wire_axis = guided(angle_deg, beside_m, 0.0);
@@ -26,9 +26,9 @@ GoldenScene placed(const std::string& name, const std::string& what, double angl
 
 void add_placed_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(
-      placed("placed", "plan and a cyan line beside it, two numbers, a tick", 0.8, 0.0006));
-  scenes.push_back(placed("placed_beyond", "plan and a red line that leaves it, a red rim, a cross",
-                          4.1, 0.0017));
+      placed("measure", "plan and a cyan line beside it, two numbers, a tick", 0.8, 0.0006));
+  scenes.push_back(placed("measure_beyond",
+                          "plan and a red line that leaves it, a red rim, a cross", 4.1, 0.0017));
 }
 
 }  // namespace orthonav::engine::golden

@@ -101,7 +101,7 @@ GoldenScene accepted() {
   s.level().screws[1].done = false;
   s.level().landmark = Landmark{{to_vec3(on_golden_vertebra(0.0f, -0.014f))}, 0.0, {}};
   s.guidance.status.state = LandmarkSoFar{true, {}, nullptr, nullptr};
-  return s.scene("accepted", "two named blue entries, a cyan diamond: touch the landmark");
+  return s.scene("landmark", "two named blue entries, a cyan diamond: touch the landmark");
 }
 
 /// In step `guide`, with a tip that was set there if it is drilling.

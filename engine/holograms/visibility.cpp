@@ -14,7 +14,8 @@ namespace orthonav::engine {
 
 namespace {
 
-/// A tool at the screw has its tip this near to the planned one, between entry and target.
+/// The tip of a tool at the screw is this near to the planned screw, anywhere between entry and
+/// target.
 constexpr double kAtScrew_m = 0.040;
 
 std::optional<PlacedLevel> placed(const LevelState& level) {
@@ -187,8 +188,9 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
       break;
     case Step::kTouchLandmark:
       out.entry_labels = true;
-      if (level != nullptr && level->usable() && level->landmark) {
-        out.landmark = level->registration->world_from_vertebra * level->landmark->in_vertebra;
+      if (const auto there = level != nullptr ? usable(*level) : std::nullopt;
+          there && level->landmark) {
+        out.landmark = there->world_from_vertebra * level->landmark->in_vertebra;
       }
       break;
     case Step::kGuide:

@@ -79,7 +79,7 @@ struct Guidance {
   std::optional<ToolGuidance> tool;  ///< absent: not guiding, or no fresh pose to guide on
   /// While guiding, whether or not the tool is seen: a stop stays while the tool is hidden.
   nav::DrillView drill;
-  /// In `placed`, the wire as it was measured; null before that.
+  /// In `measure`, the wire as it was measured; null before that.
   const PlacedWire* wire = nullptr;
   std::span<const RodState> rods;
   bool rods_moved_away = false;

@@ -34,7 +34,8 @@ struct StereoCalibration {
   [[nodiscard]] bool has_images() const { return left.width_px() > 0 && right.width_px() > 0; }
 };
 
-/// Two images taken at the same moment. The buffers are reused from frame to frame.
+/// Two images taken at the same moment. The buffers are reused from frame to frame, or exchanged
+/// for some that were used before.
 struct StereoFrame {
   std::int64_t sequence = 0;
   /// The map that World belongs to. It increases when the device's map has moved or was replaced
@@ -222,7 +223,8 @@ class Headset {
   [[nodiscard]] virtual HeadTracker& head() = 0;
   [[nodiscard]] virtual Clicker& clicker() = 0;
   [[nodiscard]] virtual Voice& voice() = 0;
-  /// From submitting a frame to its light; asked on the thread that takes the pairs alone.
+  /// How long after its submission a frame lights up. Called on the thread that takes the pairs,
+  /// and on no other.
   [[nodiscard]] virtual Duration display_latency() const = 0;
   /// Its depth cameras, one per stream; may be empty. The same ones at every call.
   [[nodiscard]] virtual std::vector<DepthCamera*> depth_cameras() { return {}; }

@@ -90,13 +90,13 @@ class ScriptedSurgeon final : public Surgeon {
   // surgeon_landmark.cpp
   /// Makes a landmark in the bone, or finds it again, and touches it.
   Script touch_landmark(std::size_t level);
-  /// Puts the guide into the same landmark.
   /// Where a tip comes to lie in the level's landmark, and the bone's normal there.
   struct Seat {
     Point<Room> tip;
     Vec3 normal;
   };
   [[nodiscard]] Seat seat_in_landmark(std::size_t level);
+  /// Puts the guide's tip to the same landmark.
   Script compare_tips(std::size_t level);
   /// With the guide held, and looked at, about as for the next screw.
   Script compare_tips_as_for_screw(std::size_t level);

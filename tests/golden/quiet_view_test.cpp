@@ -90,8 +90,8 @@ void expect_quiet(const render::Scene& scene, const std::string& name) {
 
 TEST(QuietView, HasFourNumbersAndEightWordsAtMostInEveryStepWithinLimits) {
   for (const char* name :
-       {"setup", "digitizing", "verify", "verify_checked", "verify_many", "accepted", "guide_far",
-        "guide_aside", "guide_set", "guide_drilling", "placed", "h10_rod", "done"}) {
+       {"setup", "digitizing", "verify", "verify_checked", "verify_many", "landmark", "guide_far",
+        "guide_aside", "guide_set", "guide_drilling", "measure", "h10_rod", "done"}) {
     expect_quiet(scene_named(name).scene, name);
   }
   for (const char* name : {"guide_numbers", "h10_rod_moved"}) {
@@ -173,9 +173,9 @@ TEST(QuietView, HasNoMoreInGerman) {
 }
 
 TEST(QuietView, HasAsMuchToReadAsTheTableSays) {
-  for (const char* name : {"setup", "digitizing", "verify", "verify_checked", "accepted",
+  for (const char* name : {"setup", "digitizing", "verify", "verify_checked", "landmark",
                            "guide_far", "guide_aside", "guidance", "guide_set", "guide_drilling",
-                           "guide_stop", "guide_numbers", "placed", "h10_rod", "done"}) {
+                           "guide_stop", "guide_numbers", "measure", "h10_rod", "done"}) {
     const Reading reading = to_read(scene_named(name).scene);
     const std::string row =
         printed("| scene `%s` | %d | %d |", name, reading.numbers, reading.words);

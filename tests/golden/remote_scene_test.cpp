@@ -218,9 +218,9 @@ std::unique_ptr<render::Renderer> RemoteScene::renderer_;
 
 /// Each hologram, from near and far, with the head rolled.
 constexpr std::array<std::string_view, 9> kCompared = {
-    "h1_saved",     "h7_amber",       "h10_rod",    "h13_panel_unsure",
-    "guidance",     "verify_checked", "guide_lost", "guidance_35cm_rolled_left",
-    "placed_beyond"};
+    "h1_saved",      "h7_amber",       "h10_rod",    "h13_panel_unsure",
+    "guidance",      "verify_checked", "guide_lost", "guidance_35cm_rolled_left",
+    "measure_beyond"};
 
 TEST_F(RemoteScene, HologramsLieWhereTheLocalPictureHasThem) {
   const PartsOff off = compare(kCompared, 0, kOff_px);

@@ -59,11 +59,11 @@ class ScriptedOperation {
   const engine::Guidance& registers_first_level();
   /// Looks at the registration, then accepts it.
   const engine::Guidance& accepts();
-  /// From setup to `accepted` of the first level.
+  /// From setup to `landmark` of the first level.
   const engine::Guidance& accepts_first_level();
   /// Touches three places of the box's back that confirm a registration.
   const engine::Guidance& checks_by_touch();
-  /// From setup to `accepted` of the first level, where registrations are verified by touch.
+  /// From setup to `landmark` of the first level, where registrations are verified by touch.
   const engine::Guidance& accepts_first_by_touch();
   /// A place for its landmark: on the box's back.
   static constexpr Vec3 kLandmark{0.012, 0.020, 0.015};

@@ -300,7 +300,7 @@ void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_
   if (!landmark.last) {
     text.begin(Importance::kNext, separator);
     if (separator.empty()) {
-      // The step before it is called landmark.
+      // Right behind the name of the step, landmark.
       out += translated(landmark.recorded ? translatable("touch it")
                                           : translatable("touch a new one"));
     } else {

@@ -15,7 +15,7 @@ class GuideChecks;
 class Guiding;
 class Verifying;
 
-/// The step `accepted` when registrations are verified by touch: the landmark of the level is
+/// The step `landmark` when registrations are verified by touch: the landmark of the level is
 /// touched before its next screw, and the guide's tip is put into it (TipCheck says when). A new
 /// object is made before each screw, because earlier touches do not show where the bone is now.
 class Landmarking {

@@ -17,9 +17,9 @@ namespace orthonav::engine {
 class GuideChecks;
 class Guiding;
 
-/// The step `placed`: the wire is measured with the sleeve over it, and kept or redone. Turning the
-/// sleeve to and fro on the wire before the click gives the wire's direction independently of the
-/// guide's described axis, and measures that axis too. A new object is made for each wire.
+/// The step `measure`: the wire is measured with the sleeve over it, and kept or redone. Turning
+/// the sleeve to and fro on the wire before the click gives the wire's direction independently of
+/// the guide's described axis, and measures that axis too. A new object is made for each wire.
 class Placing {
  public:
   explicit Placing(const SessionOptions& options);

@@ -33,8 +33,8 @@ class Replanning {
 
   /// Sets what the next `change` is to do.
   void ask(Replan replan) { asked_ = std::move(replan); }
-  /// Applies it to the current screw: the next one in `accepted`, the selected one in `guide`, and
-  /// in `placed` one whose wire waits for a decision. Otherwise says why not; a change that would
+  /// Applies it to the current screw: the next one in `landmark`, the selected one in `guide`, and
+  /// in `measure` one whose wire waits for a decision. Otherwise says why not; a change that would
   /// leave the cortex waits for consent. The level has a registration.
   void replan(SessionState& work, Guiding& guiding, Placing& placing, Timestamp time);
   /// A frame with this message, null for none, is displayed at `display_time`.

@@ -124,7 +124,7 @@ struct MethodSteps {
   bool redo = true;          ///< a wire beyond a limit is redone through another entry
   bool axis = true;          ///< the guide's axis is corrected by its sleeve, turned on a wire
 
-  /// Whether anything is touched in `accepted`.
+  /// Whether anything is touched in `landmark`.
   [[nodiscard]] constexpr bool touches_landmark() const { return landmark || tips; }
   [[nodiscard]] static constexpr MethodSteps none() {
     return {false, false, false, false, false, false};

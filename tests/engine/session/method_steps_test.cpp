@@ -25,7 +25,7 @@ SessionOptions without(bool MethodSteps::*step) {
   return options;
 }
 
-/// An operation in `accepted`, on the first of two levels.
+/// An operation in `landmark`, on the first of two levels.
 class Accepted : public ScriptedOperation {
  public:
   explicit Accepted(const SessionOptions& options)

@@ -189,7 +189,7 @@ void verifies(CountedOperation& o) {
   EXPECT_EQ(o.says("accept").step, Step::kTouchLandmark);
 }
 
-/// From `accepted` to the measured wire of the screw with that entry, tilted by that angle.
+/// From `landmark` to the measured wire of the screw with that entry, tilted by that angle.
 void drives(CountedOperation& o, Vec3 entry, double angle_rad) {
   o.says("next");
   o.touches(kLandmark);

@@ -13,7 +13,7 @@ inline constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
 /// SD of the registration along each axis.
 inline constexpr double kRegistration_m = 0.0003;
 
-/// In `placed`: the first screw was drilled, and "next" was said. World is Vertebra.
+/// In `measure`: the first screw was drilled, and "next" was said. World is Vertebra.
 class PlacedSession : public ::testing::Test {
  protected:
   explicit PlacedSession(const SessionOptions& options = {}, bool reference = false,

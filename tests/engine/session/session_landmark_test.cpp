@@ -26,7 +26,7 @@ constexpr Vec3 kLandmark = ScriptedOperation::kLandmark;
 constexpr double kLimit_m = kMaxLandmarkOff_m;
 constexpr double kJust_m = 1e-5;
 
-/// In `accepted`, with a registration that puts the box where it is: World is Vertebra.
+/// In `landmark`, with a registration that puts the box where it is: World is Vertebra.
 class LandmarkSession : public ::testing::Test {
  protected:
   LandmarkSession() : s({"L4", "L5"}, {}, Verification::kByTouch) { s.accepts_first_by_touch(); }

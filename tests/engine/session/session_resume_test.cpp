@@ -58,7 +58,7 @@ TEST(ResumedSession, ShowsNothingOnThePatientBeforeItsLandmarkIsFound) {
   ScriptedOperation& s = *r.operation;
   EXPECT_EQ(shown(s.pair()), 0u) << "in setup";
   s.says("start");
-  EXPECT_EQ(shown(s.pair()), 0u) << "in accepted";
+  EXPECT_EQ(shown(s.pair()), 0u) << "in landmark";
   s.touches_landmark();
   s.tracker().guide = test::guide_at({0.015, 0.020, 0.0}, 0.0);
   s.says("next");

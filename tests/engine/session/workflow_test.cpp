@@ -165,7 +165,7 @@ std::string workflow_text() {
          rules_by_step(workflow_detail::kRulesRodsAlone) +
          "\nWhere the eye alone verifies (`paper`), these answers stand instead. A study that "
          "leaves out check points,\nthe landmark or the measurement of wires has the answers of "
-         "`verify`, `accepted` or `guide`; without the\nlandmark, that of `digitize`:\n\n" +
+         "`verify`, `landmark` or `guide`; without the\nlandmark, that of `digitize`:\n\n" +
          rules_by_step(workflow_detail::kRulesByEye) +
          "\nWhere a study leaves out that the landmark is touched again:\n\n" +
          rules_by_step(workflow_detail::kRulesTouchedOnce) +

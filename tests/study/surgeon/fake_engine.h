@@ -19,8 +19,8 @@ struct DigitizedLevel {
   int deleted_regions = 0;
   std::vector<Vec3> samples_in_vertebra;   ///< saved ones
   std::vector<Vec3> checks_in_vertebra;    ///< touched in `verify`
-  std::vector<Vec3> landmark_in_vertebra;  ///< touched in `accepted`
-  /// The guide in `placed`, when it was clicked: its tip, and its direction into the bone.
+  std::vector<Vec3> landmark_in_vertebra;  ///< touched in `landmark`
+  /// The guide in `measure`, when it was clicked: its tip, and its direction into the bone.
   std::vector<std::pair<Vec3, Vec3>> sleeves_in_vertebra;
 };
 
@@ -43,8 +43,8 @@ struct EngineOptions {
   /// Shown as the place to be touched next in every `verify`; in Vertebra.
   std::optional<Vec3> place_to_touch;
   bool off = false;             ///< the touched places turn out too far off
-  bool landmark = false;        ///< asked for in `accepted`, before every screw
-  bool wire = false;            ///< measured in `placed`, after every screw
+  bool landmark = false;        ///< asked for in `landmark`, before every screw
+  bool wire = false;            ///< measured in `measure`, after every screw
   int wires_off = 0;            ///< this many of them are reported beyond a limit
   bool no_other_entry = false;  ///< there is no other entry through which they could be redone
   int landmark_moves = 0;  ///< this many touches before a level's second screw find it elsewhere
