@@ -20,7 +20,10 @@ std::size_t samples_in(std::span<const nav::Region> regions) {
 Coaching coaching_from(const nav::Registration& registration) {
   const nav::PoseSearchRegistrationOptions limits;
   Coaching coaching;
-  coaching.unique = registration.log_likelihood_ratio >= limits.min_log_likelihood_ratio;
+  coaching.unique = std::none_of(registration.reasons.begin(), registration.reasons.end(),
+                                 [](const nav::RefusalReason& r) {
+                                   return r.kind == nav::RefusalReason::Kind::kLogLikelihoodRatio;
+                                 });
   const auto is_tissue = [](const nav::RefusalReason& reason) {
     return reason.kind == nav::RefusalReason::Kind::kSoftTissue;
   };
@@ -106,9 +109,11 @@ void Coach::start(const OperatedLevel& level, std::span<const nav::Region> regio
   model_ = level.model;
   screws_ = level.screws;
   points_.clear();
+  times_.clear();
   for (const nav::Region& region : regions) {
     for (const nav::Sample& sample : region.samples) {
       points_.push_back(sample.tip_in_world);
+      times_.push_back(sample.time);
     }
   }
   awaited_ = under_way_ = true;
@@ -136,7 +141,8 @@ void Coach::tell_ended() {
 
 void Coach::run() {
   // Whether another level fits better is checked for a real registration, not on partial strokes.
-  const auto result = registrar_({*model_, points_, screws_, {}, common_});
+  const auto result =
+      registrar_({*model_, points_, screws_, {}, common_, {}, {}, 0.0, 0.0, times_});
   answer_ = result ? std::optional(coaching_from(*result)) : std::nullopt;
 }
 

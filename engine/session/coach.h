@@ -43,6 +43,7 @@ class Coach {
   explicit Coach(Registrar registrar, const nav::CommonErrors& common = {})
       : registrar_(std::move(registrar)), common_(common) {
     points_.reserve(kReservedPoints);
+    times_.reserve(kReservedPoints);
     screws_.reserve(kReservedScrews);
   }
 
@@ -90,6 +91,7 @@ class Coach {
   std::shared_ptr<const nav::VertebraModel> model_;
   std::vector<nav::ScrewPlan> screws_;
   std::vector<Point<World>> points_;
+  std::vector<Timestamp> times_;
   std::optional<Coaching> answer_;
   nav::Worker worker_;  ///< ends first
 };

@@ -27,6 +27,7 @@ struct RegistrationRequest {
   double tip_radius_m = 0.0;  ///< of a ball at the pointer's end; `paper` assumes a point
   /// SD over the bone by which the model differs from it, at least; `paper` asks for none.
   double least_model_sd_m = 0.0;
+  std::span<const Timestamp> times{};  ///< of each point; empty if unknown
 };
 
 using Registrar = std::function<Result<nav::Registration>(const RegistrationRequest& request)>;

@@ -143,6 +143,8 @@ std::vector<Vec3> Digitizer::saved_shafts() const {
   return of_saved(regions_, &Sample::shaft_in_world);
 }
 
+std::vector<Timestamp> Digitizer::saved_times() const { return of_saved(regions_, &Sample::time); }
+
 std::size_t Digitizer::saved_count() const {
   std::size_t count = 0;
   for (const Region& region : regions_) {

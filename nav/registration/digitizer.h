@@ -55,6 +55,7 @@ class Digitizer {
   /// The SDs of these points, in their order.
   [[nodiscard]] std::vector<double> saved_point_sds_m() const;
   [[nodiscard]] std::vector<Vec3> saved_shafts() const;
+  [[nodiscard]] std::vector<Timestamp> saved_times() const;
   [[nodiscard]] std::size_t saved_count() const;
 
  private:

@@ -22,7 +22,7 @@ void Registering::watch(WorkWatch* watch) {
 
 RegistrationJob Registering::now(RegistrationJob job) const {
   job.found = registrar_({*job.level.model, job.points, job.level.screws, job.level.neighbours,
-                          job.common, job.sds_m, job.shafts});
+                          job.common, job.sds_m, job.shafts, 0.0, 0.0, job.times});
   return job;
 }
 
@@ -200,6 +200,7 @@ std::optional<Event> Digitizing::register_level(SessionState& work, Timestamp ti
                       digitizer.saved_points(),
                       digitizer.saved_point_sds_m(),
                       digitizer.saved_shafts(),
+                      digitizer.saved_times(),
                       common,
                       time,
                       {}};

@@ -23,6 +23,7 @@ struct RegistrationJob {
   std::vector<Point<World>> points;
   std::vector<double> sds_m;
   std::vector<Vec3> shafts;
+  std::vector<Timestamp> times;
   nav::CommonErrors common;
   Timestamp asked{};
   std::optional<Result<nav::Registration>> found;

@@ -40,7 +40,7 @@ TEST(Coaching, AddsWhatAllStrokesShare) {
 
 TEST(Coaching, PromisesNoErrorOfAPoseThatMayBeTheWrongOne) {
   nav::Registration r = promising();
-  r.log_likelihood_ratio = 3.0;
+  r.reasons = {{nav::RefusalReason::Kind::kLogLikelihoodRatio, 3.0, 12.0, {}, {}}};
   r.predicted_tre_m = 0.0006;
   EXPECT_EQ(text_of(coaching_from(r)), "◇◇◇◇◇ digitize the left lamina");
 }
