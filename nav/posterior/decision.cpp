@@ -20,6 +20,8 @@ constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 /// Explanations that are less probable than the best by more than this are not looked at closely.
 constexpr double kFarWorse = 25.0;
 constexpr std::size_t kDraws = 4096;
+/// Poses that put the targets as near to each other are one.
+constexpr double kSame_m = 0.0005;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -33,13 +35,19 @@ std::vector<Point<World>> tips_of(const Observations& observations) {
   return tips;
 }
 
+/// Of points that lie as in the bone's own frame, which is where the mirror image is one of the
+/// points instead.
 double collisions(const Observations& observations, const VertebraModel& model,
-                  const Transform<World, Vertebra>& pose) {
+                  const Transform<World, Vertebra>& pose, bool mirrored = false) {
+  const auto from_world = pose.inverse();
+  const auto seen = [&](Vec3 v) { return mirrored ? Vec3{-v.x, v.y, v.z} : v; };
+  std::vector<Point<World>> tips;
   std::vector<Vec3> shafts;
   for (const StrokePoint& p : observations.strokes) {
-    shafts.push_back(p.shaft);
+    tips.push_back(Point<World>{seen((from_world * p.tip).v)});
+    shafts.push_back(seen(from_world.rotation() * p.shaft));
   }
-  return shaft_collision_fraction(model, pose, tips_of(observations), shafts);
+  return shaft_collision_fraction(model, {}, tips, shafts);
 }
 
 /// A hypothesis with its posterior.
@@ -61,11 +69,11 @@ struct Tried {
     found = posterior_of(observations, BoneSurface(*model, kind == Explanation::Kind::kMirror),
                          prior, found ? found->world_from_vertebra : start, effort, shared,
                          least_weight - log_odds);
-    // Of the mirror image the shafts tell nothing: it would have to be mirrored for them.
-    if (found && kind != Explanation::Kind::kMirror) {
+    if (found) {
       const double rows = static_cast<double>(
           std::min(Averaged::kUnits, units_of(observations, Averaged::kUnits).size()));
-      log_shafts = rows * (collisions(observations, *model, found->world_from_vertebra) *
+      log_shafts = rows * (collisions(observations, *model, found->world_from_vertebra,
+                                      kind == Explanation::Kind::kMirror) *
                            std::log(prior.shaft_in_bone / (1.0 - prior.shaft_in_bone)));
     }
   }
@@ -299,6 +307,15 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   const double own = tried[0].log_weight();
   const double own_evidence = tried[0].log_evidence();
   const auto is_close = [&](const Tried& t) { return t.log_weight() >= own - kFarWorse; };
+  // Of those that end at the same pose, one is enough.
+  for (auto t = tried.begin() + 1; t != tried.end();) {
+    const bool same = t->found && std::any_of(tried.begin(), t, [&](const Tried& other) {
+                        return other.kind == t->kind && other.model == t->model && other.found &&
+                               apart_m(other.found->world_from_vertebra,
+                                       t->found->world_from_vertebra, question.targets) < kSame_m;
+                      });
+    t = same ? tried.erase(t) : t + 1;
+  }
   const auto far = std::stable_partition(tried.begin() + 1, tried.end(), is_close);
   std::vector<Explanation> far_worse;
   for (auto t = far; t != tried.end(); ++t) {
@@ -346,7 +363,6 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
       continue;
     }
     const bool other_pose = t.kind == Explanation::Kind::kAnswer;
-    constexpr double kSame_m = 0.0005;
     if (other_pose && apart_m(t.found->world_from_vertebra, answer, question.targets) < kSame_m) {
       continue;
     }

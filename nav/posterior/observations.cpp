@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <unordered_map>
 
@@ -13,6 +14,9 @@ namespace {
 constexpr double kLeap_m = 0.008;
 constexpr double kSamePoint_m = 0.00005;
 constexpr double kPeriod_s = 1.0 / 30.0;
+/// A hand that lifts the pointer and begins another stroke takes longer; tracking that loses it for
+/// a moment returns sooner.
+constexpr double kPause_s = 0.3;
 constexpr double kShortest_m = 0.004;
 constexpr double kSmallestCell_m = 0.005;
 constexpr double kLargestCell_m = 0.1;
@@ -97,10 +101,13 @@ std::vector<Unit> in_space(const Observations& observations, std::size_t most) {
 }  // namespace
 
 Observations observed(std::span<const Point<World>> points, double tip_radius_m,
-                      std::span<const Vec3> shafts) {
+                      std::span<const Vec3> shafts, std::span<const double> times_s) {
   Observations out;
   out.tip_radius_m = tip_radius_m;
   const std::vector<bool> is_new = different(points);
+  const bool timed =
+      times_s.size() == points.size() &&
+      std::adjacent_find(times_s.begin(), times_s.end(), std::greater_equal<>()) == times_s.end();
   // A short excursion that comes back, of a pointer that was lifted, does not end a stroke.
   constexpr std::size_t kExcursion = 15;
   int stroke = 0;
@@ -110,7 +117,9 @@ Observations observed(std::span<const Point<World>> points, double tip_radius_m,
     if (!is_new[i]) {
       continue;
     }
-    if (!all.empty() && (points[i] - all.back().tip).norm() > kLeap_m) {
+    if (timed) {
+      stroke += !all.empty() && times_s[i] - all.back().time_s > kPause_s ? 1 : 0;
+    } else if (!all.empty() && (points[i] - all.back().tip).norm() > kLeap_m) {
       const bool back = leapt > 0 && all.size() - leapt <= kExcursion &&
                         (points[i] - all[leapt - 1].tip).norm() <= kLeap_m;
       if (back) {
@@ -123,11 +132,11 @@ Observations observed(std::span<const Point<World>> points, double tip_radius_m,
         leapt = all.size();
       }
     }
-    all.push_back({points[i], stroke, static_cast<double>(i) * kPeriod_s,
+    all.push_back({points[i], stroke, timed ? times_s[i] : static_cast<double>(i) * kPeriod_s,
                    shafts.size() == points.size() ? shafts[i] : Vec3{}});
   }
-  out.in_time =
-      static_cast<std::size_t>(2 * (stroke + 1)) < std::min<std::size_t>(160, out.strokes.size());
+  out.in_time = timed || static_cast<std::size_t>(2 * (stroke + 1)) <
+                             std::min<std::size_t>(160, out.strokes.size());
   return out;
 }
 

@@ -36,12 +36,14 @@ struct Observations {
   double tip_radius_m = 0.0;  ///< of the ball at the pointer's end, whose centre is tracked
 };
 
-/// Observations from points in the order of time, 1/30 s apart, whose strokes are not marked: a
-/// leap of more than 8 mm begins another stroke unless the tip is back within 15 points, and where
-/// most steps are leaps the points are in no order. A point within 0.05 mm of an earlier one is the
-/// same sample, repeated or resampled, and is left out. `shafts`: of each point, or none.
+/// Observations from points in the order of time. With the time of each, a pause ends a stroke.
+/// Without, they are 1/30 s apart, a leap of more than 8 mm begins another stroke unless the tip is
+/// back within 15 points, and where most steps are leaps the points are in no order. A point within
+/// 0.05 mm of an earlier one is the same sample, repeated or resampled, and is left out. `shafts`
+/// and `times_s`: of each point, or none; times that do not ascend tell nothing.
 [[nodiscard]] Observations observed(std::span<const Point<World>> points, double tip_radius_m,
-                                    std::span<const Vec3> shafts = {});
+                                    std::span<const Vec3> shafts = {},
+                                    std::span<const double> times_s = {});
 
 /// Consecutive points of a stroke that count as one row; of points in no order, those of one cell
 /// of space; or a press. Depends on places in World only, so that all hypotheses have the same.

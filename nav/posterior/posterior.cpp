@@ -202,17 +202,18 @@ using Products = Eigen::Matrix<double, kColumns, kColumns>;
 // ---------------------------------------------------------------------------------------------
 // The grid, and the prior of a point of it.
 
-constexpr int kShares = 11;
-constexpr int kTimes = 9;
-constexpr int kRatios = 8;
+constexpr int kShares = 7;
+constexpr int kTimes = 6;
+constexpr int kRatios = 6;
 constexpr double kLeastRatio = 0.12;
 
-/// The SD of number k, of the noise's; each is twice the one before.
-double ratio(int k) { return k == 0 ? 0.0 : kLeastRatio * std::ldexp(1.0, k - 1); }
+constexpr double kByRatio = 2.8;
+/// The SD of number k, of the noise's; each is `kByRatio` times the one before.
+double ratio(int k) { return k == 0 ? 0.0 : kLeastRatio * std::pow(kByRatio, k - 1); }
 /// Between it and the next one.
-double ratio_above(int k) { return kLeastRatio * std::ldexp(std::numbers::sqrt2, k - 1); }
+double ratio_above(int k) { return kLeastRatio * std::pow(kByRatio, k - 0.5); }
 
-/// share, time, tissue, its length and smoothness, strokes, model.
+/// share, time and its smoothness, tissue, its length and smoothness, strokes, model.
 using Node = std::array<int, 6>;
 
 Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
@@ -221,15 +222,16 @@ Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
     const double least = std::log(prior.white_share_least / (1.0 - prior.white_share_least));
     const double log_odds = least * (1.0 - 2.0 * node[0] / (kShares - 1.0));
     out.white = 1.0 / (1.0 + std::exp(-log_odds));
-    out.time_s =
-        prior.shortest_s * std::pow(prior.longest_s / prior.shortest_s, node[1] / (kTimes - 1.0));
+    out.noise = {prior.shortest_s *
+                     std::pow(prior.longest_s / prior.shortest_s, node[1] / 2 / (kTimes - 1.0)),
+                 node[1] % 2 == 1};
   } else {
     out.white = 1.0;
-    out.time_s = prior.longest_s;
+    out.noise = {prior.longest_s, false};
   }
   out.tissue = ratio(node[2]);
-  out.length_m = prior.tissue_lengths_m[static_cast<std::size_t>(node[3]) / 2];
-  out.smooth = node[3] % 2 == 1;
+  out.tissue_over = {prior.tissue_lengths_m[static_cast<std::size_t>(node[3]) / 2],
+                     node[3] % 2 == 1};
   out.stroke = ratio(node[4]);
   out.model = ratio(node[5]);
   return out;
@@ -258,26 +260,17 @@ double log_prior_of(const Prior& prior, const Node& node, double s_m, double noi
 // ---------------------------------------------------------------------------------------------
 // Covariances: of the units' heights, and within a block, in units of the noise's variance.
 
-}  // namespace
+/// Matern's correlation of order 3/2, (1 + x) exp(-x), falls to 1/e at this x.
+constexpr double kSmoothScale = 2.146193;
 
-/// Correlation of a field, which falls to 1/e over its length: exponential where it is rough, and
-/// Matern's of order 3/2 where it is smooth.
-struct Field {
-  double length_m = 0.0;
-  bool smooth = false;
-  [[nodiscard]] double at(double distance_m) const {
-    constexpr double kByLength = 2.146193;  // (1 + x) exp(-x) = 1/e
-    const double x = distance_m / length_m;
-    return smooth ? (1.0 + kByLength * x) * std::exp(-kByLength * x) : std::exp(-x);
-  }
-  friend auto operator<=>(const Field&, const Field&) = default;
-};
+double correlation_at(const Correlated& of, double apart) {
+  const double x = apart / of.over;
+  return of.smooth ? (1.0 + kSmoothScale * x) * std::exp(-kSmoothScale * x) : std::exp(-x);
+}
 
-namespace {
-
-/// Its mean between two units, by their halves.
-double between(const Unit& a, const Unit& b, const Field& field) {
-  const auto correlation = [&](Vec3 p, Vec3 q) { return field.at((p - q).norm()); };
+/// Mean correlation of a field over the bone between two units, by their halves.
+double between(const Unit& a, const Unit& b, const Correlated& field) {
+  const auto correlation = [&](Vec3 p, Vec3 q) { return correlation_at(field, (p - q).norm()); };
   constexpr double kFar = 4.0;
   const Vec3 middle_a = 0.5 * (a.quarter_m + a.three_quarters_m);
   const Vec3 middle_b = 0.5 * (b.quarter_m + b.three_quarters_m);
@@ -292,16 +285,27 @@ double between(const Unit& a, const Unit& b, const Field& field) {
           correlation(a.three_quarters_m, b.three_quarters_m));
 }
 
-/// Mean correlation between two units of a stroke of noise that wanders.
-double wandering(const Unit& a, const Unit& b, double time_s) {
-  const double length_a = std::max(1e-6, (a.end_s - a.begin_s) / time_s);
-  const double length_b = std::max(1e-6, (b.end_s - b.begin_s) / time_s);
+/// Mean correlation between two units of a stroke of noise that wanders: the double integral of
+/// `correlation_at` over the time of both.
+double wandering(const Unit& a, const Unit& b, const Correlated& noise) {
+  const double scale_1_s = (noise.smooth ? kSmoothScale : 1.0) / noise.over;
+  const double length_a = std::max(1e-3, scale_1_s * (a.end_s - a.begin_s));
+  const double length_b = std::max(1e-3, scale_1_s * (b.end_s - b.begin_s));
   if (&a == &b) {
-    return 2.0 * (length_a + std::expm1(-length_a)) / (length_a * length_a);
+    const double over = length_a * length_a;
+    return noise.smooth
+               ? 2.0 * (2.0 * length_a - 3.0 + (length_a + 3.0) * std::exp(-length_a)) / over
+               : 2.0 * (length_a + std::expm1(-length_a)) / over;
   }
-  const double gap =
-      std::max(0.0, b.begin_s > a.begin_s ? b.begin_s - a.end_s : a.begin_s - b.end_s) / time_s;
-  return std::expm1(-length_a) * std::expm1(-length_b) / (length_a * length_b) * std::exp(-gap);
+  const double gap = std::max(
+      0.0, scale_1_s * (b.begin_s > a.begin_s ? b.begin_s - a.end_s : a.begin_s - b.end_s));
+  // Moments of exp(-x) over either unit.
+  const double a_0 = -std::expm1(-length_a);
+  const double b_0 = -std::expm1(-length_b);
+  const double a_1 = a_0 - length_a * std::exp(-length_a);
+  const double b_1 = b_0 - length_b * std::exp(-length_b);
+  return std::exp(-gap) / (length_a * length_b) *
+         (noise.smooth ? (1.0 + gap) * a_0 * b_0 + a_1 * b_0 + a_0 * b_1 : a_0 * b_0);
 }
 
 using Across = Eigen::Matrix<double, kBlock - 1, kBlock>;
@@ -360,8 +364,8 @@ struct Averaged::Units {
   }
 
   /// Covariances, relative to the noise's variance, by what they are of; lower triangles.
-  std::map<Field, Eigen::MatrixXd> fields;
-  std::map<double, Eigen::MatrixXd> wandering_noise;
+  std::map<Correlated, Eigen::MatrixXd> fields;
+  std::map<Correlated, Eigen::MatrixXd> wandering_noise;
   struct Factor {
     Eigen::LLT<Eigen::MatrixXd> root;
     double log_determinant = 0.0;
@@ -374,8 +378,9 @@ struct Averaged::Units {
   /// Presses come last.
   [[nodiscard]] std::size_t strokes() const { return units.size() - observations.presses.size(); }
 
-  template <class Key, class Of>
-  const Eigen::MatrixXd& kept(std::map<Key, Eigen::MatrixXd>& all, const Key& key, const Of& of) {
+  template <class Of>
+  const Eigen::MatrixXd& kept(std::map<Correlated, Eigen::MatrixXd>& all, const Correlated& key,
+                              const Of& of) {
     auto [place, is_new] = all.try_emplace(key);
     if (is_new) {
       const auto m = static_cast<Eigen::Index>(units.size());
@@ -390,7 +395,7 @@ struct Averaged::Units {
     return place->second;
   }
 
-  const Eigen::MatrixXd& of_field(const Field& field) {
+  const Eigen::MatrixXd& of_field(const Correlated& field) {
     return kept(fields, field, [&](const Unit& a, const Unit& b) { return between(a, b, field); });
   }
 
@@ -401,8 +406,7 @@ struct Averaged::Units {
       return place->second;
     }
     const Mixture mix = mixture(node, prior, observations.in_time);
-    const Field tissue{mix.length_m, mix.smooth};
-    const Field model{prior.model_length_m, true};
+    const Correlated model{prior.model_length_m, true};
     const auto m = static_cast<Eigen::Index>(units.size());
     Eigen::MatrixXd c = Eigen::MatrixXd::Zero(m, m);
     // The model's error is that of presses too; tissue is beside them.
@@ -411,12 +415,13 @@ struct Averaged::Units {
       c += mix.model * mix.model * of_field(model);
     }
     if (mix.tissue > 0.0) {
-      c.topLeftCorner(n, n) += mix.tissue * mix.tissue * of_field(tissue).topLeftCorner(n, n);
+      c.topLeftCorner(n, n) +=
+          mix.tissue * mix.tissue * of_field(mix.tissue_over).topLeftCorner(n, n);
     }
     if (mix.white < 1.0) {
-      c += (1.0 - mix.white) * kept(wandering_noise, mix.time_s, [&](const Unit& a, const Unit& b) {
+      c += (1.0 - mix.white) * kept(wandering_noise, mix.noise, [&](const Unit& a, const Unit& b) {
              const bool together = a.stroke == b.stroke && a.stroke != Unit::kPress;
-             return together ? wandering(a, b, mix.time_s) : 0.0;
+             return together ? wandering(a, b, mix.noise) : 0.0;
            });
     }
     for (Eigen::Index b = 0; b < n; ++b) {
@@ -444,7 +449,7 @@ struct Averaged::Units {
       for (std::size_t lag = 0; lag < kBlock; ++lag) {
         by_lag[lag] = lag == 0 ? mix.white : 0.0;
         if (mix.white < 1.0) {
-          by_lag[lag] += (1.0 - mix.white) * std::exp(-hand.lag_s[lag] / mix.time_s);
+          by_lag[lag] += (1.0 - mix.white) * correlation_at(mix.noise, hand.lag_s[lag]);
         }
       }
       // Deviations from the mean: what is left in the seven directions across (1, ..., 1).
@@ -732,19 +737,21 @@ constexpr int kNoLength = 3;
 
 /// The points of the grid next to one.
 std::vector<Node> neighbours_of(const Node& node, const Averaged::Units& units) {
+  constexpr std::size_t kTime = 1;
   constexpr std::size_t kTissue = 2;
   constexpr std::size_t kLength = 3;
   const bool in_time = units.observations.in_time;
   const int lengths = 2 * static_cast<int>(units.prior.tissue_lengths_m.size());
   const Node size = {
-      in_time ? kShares : 1, in_time ? kTimes : 1, kRatios, lengths, kRatios, kRatios};
+      in_time ? kShares : 1, in_time ? 2 * kTimes : 1, kRatios, lengths, kRatios, kRatios};
   std::vector<Node> out;
   for (std::size_t k = 0; k < node.size(); ++k) {
     if (k == kLength && node[kTissue] == 0) {
       continue;  // without tissue its length means nothing
     }
-    // Every other length is of the same smoothness.
-    for (const int by : k == kLength ? std::vector<int>{-2, -1, 1, 2} : std::vector<int>{-1, 1}) {
+    // Every other length, or time, is of the same smoothness.
+    for (const int by :
+         k == kLength || k == kTime ? std::vector<int>{-2, -1, 1, 2} : std::vector<int>{-1, 1}) {
       Node next = node;
       next[k] += by;
       if (next[k] < 0 || next[k] >= size[k]) {
@@ -774,12 +781,12 @@ void sort_by_weight(Answers& answers) {
 /// A few points of all the grid.
 std::vector<Node> scattered(bool in_time) {
   std::vector<Node> out;
-  for (const int share : in_time ? std::vector<int>{2, 5, 8} : std::vector<int>{0}) {
-    for (const int time : in_time ? std::vector<int>{3, 6} : std::vector<int>{0}) {
+  for (const int share : in_time ? std::vector<int>{1, 3, 5} : std::vector<int>{0}) {
+    for (const int time : in_time ? std::vector<int>{4, 5, 8} : std::vector<int>{0}) {
       out.push_back({share, time, 0, kNoLength, 0, 0});
-      out.push_back({share, time, 3, kNoLength, 0, 0});
-      out.push_back({share, time, 0, kNoLength, 3, 0});
-      out.push_back({share, time, 0, kNoLength, 0, 3});
+      out.push_back({share, time, 2, kNoLength, 0, 0});
+      out.push_back({share, time, 0, kNoLength, 2, 0});
+      out.push_back({share, time, 0, kNoLength, 0, 2});
     }
   }
   return out;
@@ -940,7 +947,7 @@ std::vector<EstimatedHeight> heights_of(Averaged::Units& units, const Touches& t
     const Eigen::VectorXd solved = factor->root.solve(left);
     // What the covariance of the fields, and of the strokes' own heights, makes of what is left.
     Eigen::VectorXd fields = Eigen::VectorXd::Zero(m);
-    const auto add = [&](double sd, const Field& field, Eigen::Index rows) {
+    const auto add = [&](double sd, const Correlated& field, Eigen::Index rows) {
       if (sd > 0.0) {
         fields.head(n) += sd * sd *
                           (units.of_field(field).selfadjointView<Eigen::Lower>() *
@@ -950,7 +957,7 @@ std::vector<EstimatedHeight> heights_of(Averaged::Units& units, const Touches& t
                               .head(n);
       }
     };
-    add(of.tissue, {of.length_m, of.smooth}, n);
+    add(of.tissue, of.tissue_over, n);
     add(of.model, {units.prior.model_length_m, true}, m);
     std::map<int, double> of_stroke;
     for (Eigen::Index k = 0; k < n; ++k) {

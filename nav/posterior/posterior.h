@@ -35,15 +35,22 @@ namespace orthonav::nav::posterior {
 // hyperparameters, whose joint grid is summed over. (Rasmussen & Williams 2006, sections 2.7 and
 // 5.4.)
 
+/// A correlation that falls to 1/e over a length (m) or a time (s): exponential, or Matern's of
+/// order 3/2 where what is correlated is smooth.
+struct Correlated {
+  double over = 0.0;
+  bool smooth = false;
+  friend auto operator<=>(const Correlated&, const Correlated&) = default;
+};
+
 /// A point of the grid: what the heights consist of, relative to the noise.
 struct Mixture {
-  double white = 0.0;     ///< share of the noise's variance that is white
-  double time_s = 0.0;    ///< correlation time of the rest
-  double tissue = 0.0;    ///< SD of tissue over the bone, of the noise's SD; 0: there is none
-  double length_m = 0.0;  ///< over which its covariance falls to 1/e
-  bool smooth = false;    ///< whether it is differentiable over the bone
-  double stroke = 0.0;    ///< SD of the strokes' heights, of the noise's SD
-  double model = 0.0;     ///< SD of the model's error, of the noise's SD
+  double white = 0.0;   ///< share of the noise's variance that is white
+  Correlated noise;     ///< the rest, in time
+  double tissue = 0.0;  ///< SD of tissue over the bone, of the noise's SD; 0: there is none
+  Correlated tissue_over;
+  double stroke = 0.0;  ///< SD of the strokes' heights, of the noise's SD
+  double model = 0.0;   ///< SD of the model's error, of the noise's SD
 };
 
 /// What one point of the grid says.

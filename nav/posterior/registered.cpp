@@ -143,7 +143,8 @@ Result<Registration> register_by_posterior(const VertebraModel& model,
   if (const Status s = validate_points(points_in_world, options.min_points, model.bone()); !s) {
     return s.error();
   }
-  const Observations observations = observed(points_in_world, options.tip_radius_m, options.shafts);
+  const Observations observations =
+      observed(points_in_world, options.tip_radius_m, options.shafts, options.times_s);
   Question question;
   question.targets = targets_of(model, options);
   question.neighbours = options.neighbours;

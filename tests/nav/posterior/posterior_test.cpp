@@ -242,6 +242,51 @@ TEST(Posterior, CleanStrokesAreAcceptedAndTheirNoiseAndHeightAreTold) {
   EXPECT_LT(d->answer.uneven_m, 0.0002);
 }
 
+TEST(Posterior, AHandThatWandersSmoothlyIsNotTakenForTissue) {
+  // Heights along each stroke with a correlation like Matern's, of 0.8 mm over 0.3 s.
+  constexpr double kSd_m = 0.0008;
+  const double stays = std::exp(-2.146193 / (0.3 * 30.0));
+  const BoneSurface surface(*bone().model);
+  double squares = 0.0, uneven_m = 0.0;
+  int smooth = 0;
+  constexpr int kRuns = 6;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    Transform<World, Vertebra> truth;
+    auto o = strokes(test::StrokeVariant::kFull, seed, {}, &truth);
+    Random random(seed);
+    std::vector<double> wanders;
+    double square = 0.0, first = 0.0, second = 0.0;
+    for (std::size_t i = 0; i < o.strokes.size(); ++i) {
+      if (i == 0 || o.strokes[i].stroke != o.strokes[i - 1].stroke) {
+        for (int k = 0; k < 200; ++k) {
+          first = stays * first + random.normal();
+          second = stays * second + first;
+        }
+      }
+      first = stays * first + random.normal();
+      second = stays * second + first;
+      wanders.push_back(second);
+      square += second * second / static_cast<double>(o.strokes.size());
+    }
+    for (std::size_t i = 0; i < o.strokes.size(); ++i) {
+      const Vec3 at = (truth.inverse() * o.strokes[i].tip).v;
+      const Vec3 out = truth.rotation() * surface.near(at, surface.place_near(at)).out;
+      o.strokes[i].tip = o.strokes[i].tip + kSd_m / std::sqrt(square) * wanders[i] * out;
+    }
+    const auto d = decided(*bone().model, o, bone().question()).value();
+    const double off_m = error_m(d, truth);
+    squares += off_m * off_m / (d.rms_m * d.rms_m);
+    uneven_m += d.answer.uneven_m / kRuns;
+    const Mixture& likeliest = d.answer.parts.front().of;
+    smooth += likeliest.noise.smooth ? 1 : 0;
+    EXPECT_NEAR(std::log(likeliest.noise.over / 0.3), 0.0, 1.1) << seed;
+  }
+  EXPECT_GE(smooth, kRuns - 1);
+  EXPECT_LT(uneven_m, 0.7 * kSd_m);
+  EXPECT_GT(squares / kRuns, 0.3) << "honest, not timid";
+  EXPECT_LT(squares / kRuns, 2.0);
+}
+
 TEST(Posterior, PressesTellWhatTissueHides) {
   // Where the decision asks for them, on bare bone, after strokes over 2 mm of uneven tissue.
   constexpr std::size_t kPresses = 15;

@@ -169,6 +169,22 @@ TEST(PosteriorRegistration, ShaftsThatWouldGoThroughBoneSpeakAgainstAPose) {
   EXPECT_TRUE(r.shaft_collision_fraction > 0.5 || off_m > 0.01);
 }
 
+TEST(PosteriorRegistration, ShaftsSpeakOfTheMirrorImageAsOfTheBone) {
+  // One of 25 shafts seems to go through bone, in either.
+  const auto strokes =
+      test::digitize_strokes(l4().from.mesh, test::StrokeVariant::kFull, 2).value();
+  PoseSearchRegistrationOptions o = options_of(l4());
+  const double without =
+      register_by_posterior(*l4().model, strokes.tips(), o).value().mirror_log_likelihood;
+  for (std::size_t i = 0; i < strokes.samples.size(); ++i) {
+    o.shafts.push_back(strokes.world_from_vertebra.rotation() *
+                       Vec3{0.0, i % 25 == 0 ? -1.0 : 1.0, 0.0});
+  }
+  const Registration r = register_by_posterior(*l4().model, strokes.tips(), o).value();
+  ASSERT_GT(r.shaft_collision_fraction, 0.03);
+  EXPECT_LT(r.mirror_log_likelihood, without + 8.0) << "counted for one of them it would be 22";
+}
+
 TEST(PosteriorRegistration, AModelKnownToBeOffLeavesMoreOpen) {
   const auto strokes =
       test::digitize_strokes(l4().from.mesh, test::StrokeVariant::kSparse, 2).value();
