@@ -11,7 +11,7 @@
 
 #include "bench/aruco_methods.h"
 #include "nav/geometry/absolute_orientation.h"
-#include "nav/tracking/planar_pose.h"
+#include "nav/tracking/tag_pose.h"
 #include "nav/tracking/tool_follower.h"
 
 namespace orthonav::bench {

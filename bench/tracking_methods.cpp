@@ -6,7 +6,6 @@
 
 #include "bench/aruco_methods.h"
 #include "nav/published/corner_tracker.h"
-#include "nav/tracking/tag_matching.h"
 #include "nav/tracking/tag_pose.h"
 #include "nav/tracking/tool_tracker.h"
 

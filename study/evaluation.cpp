@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "nav/evaluation/errors.h"
-#include "nav/tracking/anchor.h"
+#include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::engine {
 

@@ -5,7 +5,7 @@
 
 #include "nav/published/corner_tracker.h"
 #include "nav/tracking/corner_pose.h"
-#include "nav/tracking/pair_detector.h"
+#include "nav/tracking/marker_detector.h"
 #include "nav/tracking/pose_filter.h"
 #include "study/modelled_sightings.h"
 

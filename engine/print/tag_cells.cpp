@@ -1,7 +1,6 @@
 #include "engine/print/tag_cells.h"
 
 #include "nav/tracking/marker_detector.h"
-#include "nav/tracking/tag_template.h"
 
 namespace orthonav::engine {
 namespace {

@@ -15,8 +15,8 @@
 #include "nav/guidance/screw_numbers.h"
 #include "nav/guidance/shown_clearance.h"
 #include "nav/registration/digitizer.h"
-#include "nav/tracking/anchor.h"
 #include "nav/tracking/tool.h"
+#include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::engine {
 

@@ -1,6 +1,6 @@
 #include "nav/calibration/body_sightings.h"
 
-#include "nav/tracking/tag_matching.h"
+#include "nav/tracking/tag_pose.h"
 
 namespace orthonav::nav {
 namespace {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "nav/tracking/marker_detector.h"
-#include "nav/tracking/seen_tags.h"
 #include "nav/tracking/tag_pose.h"
 #include "nav/tracking/tool.h"
 

@@ -10,8 +10,7 @@
 #include "nav/evaluation/board_touches.h"
 #include "nav/evaluation/errors.h"
 #include "nav/evaluation/fixed_point.h"
-#include "nav/tracking/pivot_fit.h"
-#include "nav/tracking/tip_uncertainty.h"
+#include "nav/tracking/pivot.h"
 
 namespace orthonav::nav {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "nav/published/corner_filter.h"
-#include "nav/tracking/tag_matching.h"
+#include "nav/tracking/tag_pose.h"
 
 namespace orthonav::nav::published {
 namespace {

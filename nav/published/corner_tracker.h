@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "nav/tracking/pair_detector.h"
+#include "nav/tracking/marker_detector.h"
 #include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::nav::published {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "nav/tracking/anchor.h"
 #include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::nav {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,6 +12,9 @@
 #include "base/image.h"
 #include "base/result.h"
 #include "base/vec.h"
+#include "hal/api/devices.h"
+#include "nav/tracking/tool.h"
+#include "nav/tracking/worker.h"
 
 namespace orthonav::nav {
 
@@ -37,6 +41,8 @@ struct MarkerCorners {
   double decision_margin = 0.0;
   int hamming = 0;
 };
+
+using TagCorners = std::array<Vec2, 4>;
 
 /// How the corners are refined beyond the quad's outline.
 enum class Refinement {
@@ -103,6 +109,114 @@ class MarkerDetector {
   void look_for_touched(const GreyImage& image, const PixelBox& crop,
                         std::vector<MarkerCorners>& found);
   std::unique_ptr<Library> library_;
+};
+
+/// A printed tag's pattern: a square of cells, seen upright, row 0 on top, from one edge of the
+/// part that the family defines to the other (including its white ring, if it has one).
+struct TagTemplate {
+  int cells = 0;             ///< per side
+  int border_cells = 0;      ///< per side of the square whose outer edge is the tag's size
+  std::vector<float> white;  ///< row-major, 1: white, 0: black
+  std::vector<bool> code;    ///< row-major, whether the cell distinguishes ids
+
+  [[nodiscard]] float at(int row, int column) const {
+    return white[static_cast<std::size_t>(row * cells + column)];
+  }
+  /// Length of a cell on a tag of the given size.
+  [[nodiscard]] double cell_m(double size_m) const { return size_m / border_cells; }
+};
+
+/// The template of a tag from the AprilTag library's tables; nothing for a family or an id that
+/// does not exist.
+[[nodiscard]] std::optional<TagTemplate> tag_template(std::string_view family, int id);
+
+/// Margin around a tag's expected corners on every side: a fraction of their extent, and pixels.
+struct BoxRoom {
+  double of_extent = 0.0;
+  double px = 0.0;
+};
+
+/// Where to look in one image: everywhere, or in boxes that each concern one tag.
+struct SearchPlan {
+  struct Box {
+    PixelBox box;
+    std::string_view family;
+    int id = 0;
+  };
+  bool everywhere = true;
+  std::vector<Box> boxes;
+
+  /// Plans a box around a tag; none if the corners are not finite or far outside any image.
+  void add(const TagCorners& corners_px, const BoxRoom& room, std::string_view family, int id);
+};
+
+/// Finds tags in pairs of images. One thread at a time.
+class TagFinder {
+ public:
+  virtual ~TagFinder() = default;
+  [[nodiscard]] virtual SearchPlan& left_plan() = 0;
+  [[nodiscard]] virtual SearchPlan& right_plan() = 0;
+  /// Fills `left()` and `right()` as planned.
+  virtual void detect(const StereoFrame& frame) = 0;
+  [[nodiscard]] virtual std::span<const MarkerCorners> left() const = 0;
+  [[nodiscard]] virtual std::span<const MarkerCorners> right() const = 0;
+};
+
+/// Detects tags in both images of a pair, concurrently when a second thread is given; the result is
+/// the same.
+class PairDetector final : public TagFinder {
+ public:
+  static Result<std::unique_ptr<PairDetector>> create(const DetectorOptions& options,
+                                                      bool parallel);
+  PairDetector(MarkerDetector left, MarkerDetector right, bool parallel);
+
+  [[nodiscard]] SearchPlan& left_plan() override { return left_.plan; }
+  [[nodiscard]] SearchPlan& right_plan() override { return right_.plan; }
+  /// An image that the detector refuses shows no tags.
+  void detect(const StereoFrame& frame) override;
+  [[nodiscard]] std::span<const MarkerCorners> left() const override { return left_.found; }
+  [[nodiscard]] std::span<const MarkerCorners> right() const override { return right_.found; }
+
+ private:
+  struct Side {
+    MarkerDetector detector;
+    SearchPlan plan;
+    const GreyImage* image = nullptr;
+    std::vector<MarkerCorners> found;
+    std::vector<MarkerCorners> in_box;
+  };
+  static void detect_side(void* side);
+
+  Side left_;
+  Side right_;
+  std::optional<Worker> worker_;
+};
+
+/// Which tags were found in images, whether or not anything has them, to say so where one that is
+/// looked for was never seen.
+class SeenTags {
+ public:
+  SeenTags() { tags_.reserve(kMax); }
+  /// Allocates nothing; beyond `kMax` different tags new ones are left out.
+  void add(std::span<const MarkerCorners> found);
+  /// "tag tag36h11 id 7 of 'pointer' was never seen, only tag36h11 id 3, tag36h11 id 4" (the most
+  /// frequent first); empty if one of its tags was, if it has none, and if no tag was seen at all.
+  [[nodiscard]] std::string never_seen(const ToolGeometry& tool) const;
+  /// The same for the tag alone.
+  [[nodiscard]] std::string never_seen(const MarkerDefinition& tag) const;
+  /// Whether one was seen that none of these tools has.
+  [[nodiscard]] bool has_other_than(std::span<const ToolGeometry> tools) const;
+
+ private:
+  [[nodiscard]] std::string text() const;
+
+  static constexpr std::size_t kMax = 64;
+  struct Tag {
+    std::string_view family;
+    int id = 0;
+    std::int64_t times = 0;
+  };
+  std::vector<Tag> tags_;
 };
 
 }  // namespace orthonav::nav

@@ -7,6 +7,7 @@
 #include <utility>
 
 namespace orthonav::nav {
+
 namespace {
 
 /// Errors are correlated from pair to pair: only this fraction of a pair's information is new.

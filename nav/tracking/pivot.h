@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,46 @@
 #include "nav/statistics/verdict.h"
 
 namespace orthonav::nav {
+
+/// The algebraic one-step solution of R·tip + t = pivot over some poses (Yaniv 2015, "Which pivot
+/// calibration?").
+struct PivotFit {
+  Point<Marker> tip_in_marker;
+  Point<World> pivot_in_world;
+  /// RMS of the rotation in the direction that determines the tip worst; 0 when it may lie anywhere
+  /// along a line.
+  double spread_rad = 0.0;
+  double rmse_m = 0.0;  ///< of the tips about the pivot, 3-D
+
+  /// How far a pose's tip lies from the pivot.
+  [[nodiscard]] double miss_m(const Transform<World, Marker>& pose) const {
+    return (pose * tip_in_marker - pivot_in_world).norm();
+  }
+};
+
+/// Fits the poses with these indices, at least three; nothing if the tip is not determined.
+[[nodiscard]] std::optional<PivotFit> fit_pivot(std::span<const Transform<World, Marker>> poses,
+                                                std::span<const std::size_t> chosen);
+
+/// How well the tip of a pivot fit is known.
+struct TipUncertainty {
+  Mat3 covariance_m2{};  ///< of the tip, in the marker's axes
+  /// So many uncorrelated poses would locate the pivot as well.
+  double independent_poses = 0.0;
+
+  [[nodiscard]] double sigma_m() const;  ///< 3-D SD
+};
+
+/// The covariance of the least-squares tip from residuals that are correlated over time: the tip
+/// wanders in its seat, and the tracker's error changes only as the tool turns. They are taken for
+/// a first-order autoregressive process plus white noise, the same in each direction. Correlation
+/// time and share of white noise are those of greatest restricted likelihood (Patterson & Thompson
+/// 1971), at most an eighth of the poses: a longer time cannot be told from so many. The poses with
+/// the indices `chosen`, rising, are those of `fit`. A shift of the seat that follows the tool's
+/// lean is a different tip and cannot be seen.
+[[nodiscard]] TipUncertainty tip_uncertainty(std::span<const Transform<World, Marker>> poses,
+                                             std::span<const std::size_t> chosen,
+                                             const PivotFit& fit);
 
 struct PivotOptions {
   std::size_t min_poses = 20;

@@ -8,6 +8,168 @@
 #include "nav/tracking/tag_pose.h"
 
 namespace orthonav::nav {
+
+namespace {
+
+constexpr int kLargestRadiusPx = 40;
+/// Wide searches look at every second pixel first.
+constexpr int kFineRadiusPx = 6;
+constexpr double kFewestCells = 8.0;
+
+/// Correlation of single pixels' grey with a template of zeros and ones.
+struct Correlation {
+  double n = 0.0;
+  double grey = 0.0;
+  double grey2 = 0.0;
+  double white = 0.0;
+  double both = 0.0;
+
+  void add(const GreyImage& image, int x, int y, float template_white) {
+    if (x < 0 || y < 0 || x >= image.width_px || y >= image.height_px) {
+      return;
+    }
+    const double g = image.at(x, y);
+    const auto w = static_cast<double>(template_white);
+    n += 1.0;
+    grey += g;
+    grey2 += g * g;
+    white += w;
+    both += w * g;
+  }
+  [[nodiscard]] double value() const {
+    // The template's squares equal its values.
+    const double spread = (n * grey2 - grey * grey) * (n * white - white * white);
+    return n < kFewestCells || !(spread > 0.0) ? 0.0
+                                               : (n * both - grey * white) / std::sqrt(spread);
+  }
+};
+
+}  // namespace
+
+CellMatch TagSearch::at(const GreyImage& image, int dx, int dy) const {
+  Correlation all;
+  for (const Cell& cell : cells_) {
+    all.add(image, cell.x_px + dx, cell.y_px + dy, cell.white);
+  }
+  CellMatch match;
+  match.offset_px = {static_cast<double>(dx), static_cast<double>(dy)};
+  match.fraction = all.n / static_cast<double>(all_cells_);
+  match.correlation = all.value();
+  return match;
+}
+
+double TagSearch::code_at(const GreyImage& image, Vec2 offset_px) const {
+  Correlation code;
+  for (const Cell& cell : cells_) {
+    if (cell.code) {
+      code.add(image, cell.x_px + static_cast<int>(offset_px.x),
+               cell.y_px + static_cast<int>(offset_px.y), cell.white);
+    }
+  }
+  return code.value();
+}
+
+CellMatch TagSearch::match(const GreyImage& image, const CameraModel& camera, const BlurredTag& tag,
+                           const CameraFromTag& pose) {
+  const int n = tag.cells().cells;
+  cells_.clear();
+  all_cells_ = static_cast<std::size_t>(n * n);
+  for (int row = 0; row < n; ++row) {
+    for (int column = 0; column < n; ++column) {
+      const Vec3 in_tag{(column + 0.5 - 0.5 * n) * tag.cell_m(),
+                        (0.5 * n - row - 0.5) * tag.cell_m(), 0.0};
+      const auto pixel = camera.project(pose.rotation * in_tag + pose.translation_m);
+      if (!pixel) {
+        continue;
+      }
+      cells_.push_back({static_cast<int>(std::floor(pixel->x)),
+                        static_cast<int>(std::floor(pixel->y)), tag.cells().at(row, column),
+                        tag.cells().code[static_cast<std::size_t>(row * n + column)]});
+    }
+  }
+  CellMatch here = at(image, 0, 0);
+  here.code = code_at(image, {});
+  return here;
+}
+
+CellMatch TagSearch::best_offset(const GreyImage& image, int radius_px) const {
+  const int radius = std::clamp(radius_px, 1, kLargestRadiusPx);
+  const int step = radius > kFineRadiusPx ? 2 : 1;
+  CellMatch best = at(image, 0, 0);
+  const auto look = [&](int x, int y) {
+    const CellMatch here = at(image, x, y);
+    if (here.correlation > best.correlation) {
+      best = here;
+    }
+  };
+  for (int y = -radius; y <= radius; y += step) {
+    for (int x = -radius; x <= radius; x += step) {
+      look(x, y);
+    }
+  }
+  const int x0 = static_cast<int>(best.offset_px.x);
+  const int y0 = static_cast<int>(best.offset_px.y);
+  for (int y = y0 - 1; step > 1 && y <= y0 + 1; ++y) {
+    for (int x = x0 - 1; x <= x0 + 1; ++x) {
+      look(x, y);
+    }
+  }
+  best.code = code_at(image, best.offset_px);
+  return best;
+}
+
+namespace {
+
+constexpr double kUsual_s = 0.005;
+constexpr double kLongest_s = 0.030;
+/// Forgetting factor: pairs of the last few seconds count.
+constexpr double kForgetting = 0.99;
+/// The weight of the prior for the usual exposure: that of one fast sighting (v² / 12 in px⁴/s⁴).
+constexpr double kBelief = 2e6;
+/// Pairs farther apart than this say nothing about speed.
+constexpr Duration kLongestGap = std::chrono::milliseconds(120);
+
+}  // namespace
+
+void ExposureEstimator::add(const BlurSighting& sighting) {
+  if (before_ && middle_ && before_->view == sighting.view && middle_->view == sighting.view &&
+      sighting.time > before_->time && sighting.time - before_->time <= kLongestGap) {
+    // The speed at the middle sighting, without the delay of a one-sided difference.
+    const double dt = seconds(sighting.time - before_->time);
+    const Vec2 speed = (1.0 / dt) * (sighting.centre_px - before_->centre_px);
+    const Vec2 c = middle_->column_px;
+    const Vec2 r = middle_->row_px;
+    const double area = c.x * r.y - c.y * r.x;
+    const double across = (speed.x * r.y - speed.y * r.x) / area;
+    const double down = (c.x * speed.y - c.y * speed.x) / area;
+    if (std::isfinite(across) && std::isfinite(down)) {
+      add(middle_->blur_cells.x * middle_->blur_cells.x * c.dot(c), across * across * c.dot(c));
+      add(middle_->blur_cells.y * middle_->blur_cells.y * r.dot(r), down * down * r.dot(r));
+    }
+  }
+  before_ = middle_;
+  middle_ = sighting;
+}
+
+void ExposureEstimator::add(double blur_px2, double speed_px2) {
+  const double x = speed_px2 / 12.0;
+  n_ = kForgetting * n_ + 1.0;
+  x_ = kForgetting * x_ + x;
+  y_ = kForgetting * y_ + blur_px2;
+  xx_ = kForgetting * xx_ + x * x;
+  xy_ = kForgetting * xy_ + x * blur_px2;
+}
+
+double ExposureEstimator::exposure_s() const {
+  if (!(n_ > 0.0)) {
+    return kUsual_s;
+  }
+  const double spread = xx_ - x_ * x_ / n_;
+  const double both = xy_ - x_ * y_ / n_;
+  const double squared = (both + kBelief * kUsual_s * kUsual_s) / (spread + kBelief);
+  return std::clamp(std::sqrt(std::max(0.0, squared)), 0.0, kLongest_s);
+}
+
 namespace {
 
 /// Required correlations of a tag's cells with its template: where it is expected, somewhere near,

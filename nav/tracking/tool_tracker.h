@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -7,15 +8,46 @@
 #include <string>
 #include <vector>
 
+#include "base/time.h"
 #include "base/tracked.h"
+#include "base/transform.h"
 #include "hal/api/devices.h"
-#include "nav/tracking/seen_tags.h"
-#include "nav/tracking/stereo_alignment.h"
+#include "nav/tracking/marker_detector.h"
+#include "nav/tracking/online_calibration.h"
 #include "nav/tracking/tool.h"
 
 namespace orthonav::nav {
 
-struct Anchor;
+/// Where a patient reference lies in the anchored World.
+struct ReferencePlace {
+  std::size_t tool = 0;
+  Transform<World, Marker> anchored_from_marker;
+};
+
+/// The state of the patient references to which an anchored tracker's poses are relative.
+///
+/// With a reference, a session's World is the *anchored* World: it coincides with the headset's map
+/// at the moment when a reference was first seen, and moves with the reference from then on.
+/// Anything clamped to the patient is at rest in it, regardless of motion of the patient, the map
+/// or the head's noise.
+struct Anchor {
+  bool in_sight = false;               ///< at least one reference was measured in the newest pair
+  std::optional<Timestamp> last_seen;  ///< mid-exposure of the newest pair that measured one
+  /// From the anchored World to the headset's map, from the pair at `last_seen`.
+  Transform<World, World> world_from_anchored;
+  /// How often references were found to have moved relative to each other; each time, everything
+  /// measured before becomes invalid.
+  std::int64_t moves = 0;
+  /// Where the references in use lie. A tracker created with them anchors to the same World.
+  std::vector<ReferencePlace> places;
+  std::int64_t places_changed = 0;  ///< how many times
+
+  /// Whether no reference was seen within `stale_after` before `at`: then nothing may be shown on
+  /// the patient.
+  [[nodiscard]] bool stale(Timestamp at, Duration stale_after) const {
+    return !last_seen || at - *last_seen > stale_after;
+  }
+};
 
 using TrackedPose = Tracked<Transform<World, Marker>>;
 
@@ -95,8 +127,8 @@ class ToolTracker {
   /// Whether it filters poses over pairs and predicts missing ones. If not, poses come from another
   /// program and are passed on unchanged.
   [[nodiscard]] virtual bool follows_tools() const { return true; }
-  /// The patient references to which its poses are relative (nav/tracking/anchor.h); null: poses
-  /// are in the headset's map.
+  /// The patient references to which its poses are relative (`create_anchored_tracker`); null:
+  /// poses are in the headset's map.
   [[nodiscard]] virtual const Anchor* anchor() const { return nullptr; }
 };
 

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "nav/tracking/anchor.h"
 #include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::test {

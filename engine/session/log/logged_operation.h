@@ -12,7 +12,7 @@
 #include "engine/session/operation_state.h"
 #include "engine/session/workflow/workflow.h"
 #include "nav/registration/digitizer.h"
-#include "nav/tracking/anchor.h"
+#include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::engine {
 

@@ -9,7 +9,7 @@
 #include "engine/io/json_document.h"
 #include "nav/guidance/screw.h"
 #include "nav/registration/registration.h"
-#include "nav/tracking/anchor.h"
+#include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::engine {
 

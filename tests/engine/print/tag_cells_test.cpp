@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "nav/tracking/tag_template.h"
+#include "nav/tracking/marker_detector.h"
 
 namespace orthonav::engine {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "base/random.h"
 #include "nav/tracking/pivot.h"
-#include "nav/tracking/tip_uncertainty.h"
 
 namespace orthonav::nav::pivot_test {
 namespace {

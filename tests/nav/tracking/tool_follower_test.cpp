@@ -1,5 +1,5 @@
 // Blur of a swinging tag, told pair by pair.
-#include "nav/tracking/exposure.h"
+#include "nav/tracking/tool_follower.h"
 
 #include <gtest/gtest.h>
 
