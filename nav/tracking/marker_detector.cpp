@@ -21,11 +21,13 @@
 #include "nav/statistics/median.h"
 #include "nav/tracking/bilinear.h"
 
-struct apriltag_family;
 // Finds the outlines that `apriltag_detector_detect` decodes; exported by the library, but not in
 // its header.
 extern "C" zarray_t* apriltag_quad_thresh(apriltag_detector_t* detector, image_u8_t* image);
 
+// From families of tags to tags found in pairs: what the AprilTag library knows of a family,
+// corners moved to where edges meet, a tag read within given corners, the detector of one image,
+// and of two.
 namespace orthonav::nav {
 
 /// tag36h11 with a black border two cells wide.
@@ -37,9 +39,6 @@ struct FreeFamily {
   void operator()(apriltag_family* family) const;
 };
 using TagFamily = std::unique_ptr<apriltag_family, FreeFamily>;
-
-/// Null for an unknown family, or if memory runs out.
-[[nodiscard]] TagFamily create_family(std::string_view name);
 
 namespace {
 
@@ -85,10 +84,7 @@ std::size_t family_index(std::string_view name) {
   return static_cast<std::size_t>(std::find(kNames.begin(), kNames.end(), name) - kNames.begin());
 }
 
-}  // namespace
-
-void FreeFamily::operator()(apriltag_family* family) const { kFamilies[index].destroy(family); }
-
+/// Null for an unknown family, or if memory runs out.
 TagFamily create_family(std::string_view name) {
   const std::size_t index = family_index(name);
   if (index >= kFamilies.size()) {
@@ -96,6 +92,10 @@ TagFamily create_family(std::string_view name) {
   }
   return {kFamilies[index].create(), FreeFamily{index}};
 }
+
+}  // namespace
+
+void FreeFamily::operator()(apriltag_family* family) const { kFamilies[index].destroy(family); }
 
 std::span<const std::string_view> known_families() { return kNames; }
 
@@ -115,66 +115,45 @@ int family_size(std::string_view family) {
   return index < kFamilies.size() ? kFamilies[index].codes : 0;
 }
 
-std::optional<TagCode> tag_code(std::string_view family, int id) {
-  const std::size_t index = family_index(family);
-  if (index >= kFamilies.size() || id < 0 || id >= kFamilies[index].codes) {
+bool is_known_family(const std::string& family) { return family_index(family) < kNames.size(); }
+
+// Everything is black except a white ring one cell wide outside the border (or, where the border is
+// white, the border itself) and the bits that are set.
+std::optional<TagTemplate> tag_template(std::string_view family, int id) {
+  if (id < 0 || id >= family_size(family)) {
     return std::nullopt;
   }
   const TagFamily table = create_family(family);
   if (!table) {
     return std::nullopt;
   }
-  TagCode code{table->total_width, table->width_at_border, table->reversed_border, {}};
-  for (std::uint32_t bit = 0; bit < table->nbits; ++bit) {
-    code.bits.push_back({static_cast<int>(table->bit_y[bit]), static_cast<int>(table->bit_x[bit]),
-                         ((table->codes[id] >> (table->nbits - bit - 1)) & 1U) != 0});
-  }
-  return code;
-}
-
-bool is_known_family(const std::string& family) { return family_index(family) < kNames.size(); }
-
-// Everything is black except a white ring one cell wide outside the border (or, where the border is
-// white, the border itself) and the bits that are set.
-std::optional<TagTemplate> tag_template(std::string_view family, int id) {
-  const auto code = tag_code(family, id);
-  if (!code) {
-    return std::nullopt;
-  }
   TagTemplate tag;
-  tag.cells = code->cells;
-  tag.border_cells = code->border_cells;
+  tag.cells = table->total_width;
+  tag.border_cells = table->width_at_border;
   tag.white.assign(static_cast<std::size_t>(tag.cells * tag.cells), 0.0F);
   tag.code.assign(tag.white.size(), false);
   const auto index = [&](int row, int column) {
     return static_cast<std::size_t>(row * tag.cells + column);
   };
-  const int ring = tag.border_cells + (code->white_border ? 0 : 2);
+  const int ring = tag.border_cells + (table->reversed_border ? 0 : 2);
   const int first = (tag.cells - ring) / 2;
   const int last = first + ring - 1;
   for (int i = first; i <= last; ++i) {
     tag.white[index(first, i)] = tag.white[index(last, i)] = tag.white[index(i, first)] =
         tag.white[index(i, last)] = 1.0F;
   }
+  // Places of bits are counted from the outer edge of the border.
   const int border = (tag.cells - tag.border_cells) / 2;
-  for (const TagCode::Bit& bit : code->bits) {
-    const std::size_t i = index(bit.row + border, bit.column + border);
+  for (std::uint32_t bit = 0; bit < table->nbits; ++bit) {
+    const std::size_t i = index(static_cast<int>(table->bit_y[bit]) + border,
+                                static_cast<int>(table->bit_x[bit]) + border);
     tag.code[i] = true;
-    if (bit.white) {
+    if (((table->codes[id] >> (table->nbits - bit - 1)) & 1U) != 0) {
       tag.white[i] = 1.0F;
     }
   }
   return tag;
 }
-
-/// The corners of a dark or bright square, moved to where its four edges meet. Each edge is the
-/// line through the places of steepest grey on rays across it, weighted by the steepness; rays that
-/// disagree with the others lose their weight (Tukey's biweight). Grey is interpolated, which on
-/// rendered tags makes these lines twice as exact as with the library's own refinement. An edge
-/// without enough agreeing rays stays as it was. Corners in continuous pixels, in either sense of
-/// rotation.
-[[nodiscard]] std::array<Vec2, 4> refined_corners(const GreyImage& image,
-                                                  const std::array<Vec2, 4>& corners_px);
 
 namespace {
 
@@ -315,8 +294,12 @@ Line edge(const GreyImage& image, Vec2 a, Vec2 b, double reach_px) {
   return robust_line(seen).value_or(as_it_was);
 }
 
-}  // namespace
-
+/// The corners of a dark or bright square, moved to where its four edges meet. Each edge is the
+/// line through the places of steepest grey on rays across it, weighted by the steepness; rays that
+/// disagree with the others lose their weight (Tukey's biweight). Grey is interpolated, which on
+/// rendered tags makes these lines twice as exact as with the library's own refinement. An edge
+/// without enough agreeing rays stays as it was. Corners in continuous pixels, in either sense of
+/// rotation.
 std::array<Vec2, 4> refined_corners(const GreyImage& image, const std::array<Vec2, 4>& corners_px) {
   if (image.width_px < 2 || image.height_px < 2) {
     return corners_px;
@@ -347,29 +330,6 @@ std::array<Vec2, 4> refined_corners(const GreyImage& image, const std::array<Vec
   }
   return refined;
 }
-
-/// Shrinks dark areas in a part of an image: every pixel becomes the brightest of a window of
-/// `window_px` pixels per side that begins with it and extends to the right and down. Black squares
-/// that touch a tag's corners are one dark area with it; this separates them, so that the tag's
-/// outline appears. A position in `thinned` corresponds in `image` to the same position plus the
-/// box's corner and `thinned_offset(window_px)`.
-void thin(const GreyImage& image, const PixelBox& box, int window_px, GreyImage& thinned);
-[[nodiscard]] inline Vec2 thinned_offset(int window_px) {
-  return {0.5 * (window_px - 1), 0.5 * (window_px - 1)};
-}
-
-/// The tag of a family with a black border that these corners outline, in any cyclic order or
-/// sense: with corners as `MarkerCorners` has them, and margin and corrected bits as the library
-/// counts them. Nothing where bits differ from every code by more than `max_hamming`, where a cell
-/// or two of the border are bright, or where the surroundings are not brighter than the border
-/// (the corners of the surroundings do not count). `touched`: there is something dark at two of its
-/// corners or more.
-[[nodiscard]] std::optional<MarkerCorners> read_tag(const GreyImage& image,
-                                                    const std::array<Vec2, 4>& corners_px,
-                                                    const apriltag_family& family, int max_hamming,
-                                                    bool& touched);
-
-namespace {
 
 // A highlight or a speck may hide a cell of a ring.
 constexpr int kBrightCellsAllowed = 1;
@@ -553,8 +513,11 @@ double margin(const Cells& cells, const apriltag_family& family, int turns) {
   return std::min(sum[0] / std::max(1, count[0]), sum[1] / std::max(1, count[1]));
 }
 
-}  // namespace
-
+/// Shrinks dark areas in a part of an image: every pixel becomes the brightest of a window of
+/// `window_px` pixels per side that begins with it and extends to the right and down. Black squares
+/// that touch a tag's corners are one dark area with it; this separates them, so that the tag's
+/// outline appears. A position in `thinned` corresponds in `image` to the same position plus the
+/// box's corner and `thinned_offset(window_px)`.
 void thin(const GreyImage& image, const PixelBox& box, int window_px, GreyImage& thinned) {
   thinned.width_px = box.width_px;
   thinned.height_px = box.height_px;
@@ -575,6 +538,14 @@ void thin(const GreyImage& image, const PixelBox& box, int window_px, GreyImage&
   }
 }
 
+Vec2 thinned_offset(int window_px) { return {0.5 * (window_px - 1), 0.5 * (window_px - 1)}; }
+
+/// The tag of a family with a black border that these corners outline, in any cyclic order or
+/// sense: with corners as `MarkerCorners` has them, and margin and corrected bits as the library
+/// counts them. Nothing where bits differ from every code by more than `max_hamming`, where a cell
+/// or two of the border are bright, or where the surroundings are not brighter than the border
+/// (the corners of the surroundings do not count). `touched`: there is something dark at two of its
+/// corners or more.
 std::optional<MarkerCorners> read_tag(const GreyImage& image, const std::array<Vec2, 4>& corners_px,
                                       const apriltag_family& family, int max_hamming,
                                       bool& touched) {
@@ -624,8 +595,6 @@ std::optional<MarkerCorners> read_tag(const GreyImage& image, const std::array<V
   }
   return best;
 }
-
-namespace {
 
 // Side of the library's threshold tiles, in (decimated) pixels.
 constexpr int kTilePx = 4;
@@ -712,8 +681,9 @@ bool comes_before(const MarkerCorners& a, const MarkerCorners& b) {
   return key(a) < key(b);
 }
 
-}  // namespace
-
+/// The part of the box inside the image, widened to whole steps from the image's first pixel and by
+/// one more step on every side as far as the image goes. Empty boxes may be returned with negative
+/// sides.
 PixelBox in_whole_steps(const PixelBox& box, const GreyImage& image, int step_px) {
   const auto low = [step_px](long long v) {
     return static_cast<int>(std::max<long long>(0, (v >= 0 ? v / step_px : -1) - 1) * step_px);
@@ -730,6 +700,8 @@ PixelBox in_whole_steps(const PixelBox& box, const GreyImage& image, int step_px
   const int y0 = low(box.y_px);
   return {x0, y0, high(right, image.width_px) - x0, high(bottom, image.height_px) - y0};
 }
+
+}  // namespace
 
 struct MarkerDetector::Library {
   apriltag_detector_t* detector = nullptr;
@@ -962,12 +934,6 @@ void MarkerDetector::look_for_touched(const GreyImage& image, const PixelBox& cr
   }
 }
 
-namespace {
-
-constexpr double kFarPx = 1e5;
-
-}  // namespace
-
 void SearchPlan::add(const TagCorners& corners_px, const BoxRoom& room, std::string_view family,
                      int id) {
   Vec2 low = corners_px[0];
@@ -978,6 +944,7 @@ void SearchPlan::add(const TagCorners& corners_px, const BoxRoom& room, std::str
   }
   const double extent_px = std::max(high.x - low.x, high.y - low.y);
   const double room_px = room.px + room.of_extent * extent_px;
+  constexpr double kFarPx = 1e5;
   // Negated, so that non-finite corners stay out as well.
   if (!(std::abs(low.x) + std::abs(low.y) + extent_px + room_px < kFarPx)) {
     return;

@@ -26,10 +26,7 @@ struct PixelBox {
   int height_px = 0;
 };
 
-/// The part of the box inside the image, widened to whole steps from the image's first pixel and by
-/// one more step on every side as far as the image goes. Empty boxes may be returned with negative
-/// sides.
-[[nodiscard]] PixelBox in_whole_steps(const PixelBox& box, const GreyImage& image, int step_px);
+using TagCorners = std::array<Vec2, 4>;
 
 /// One tag in one image. Corners in continuous pixels (first pixel's centre at (0.5, 0.5)) in the
 /// order of the upright tag's: bottom left, bottom right, top right, top left, seen on its face;
@@ -37,18 +34,16 @@ struct PixelBox {
 struct MarkerCorners {
   std::string_view family;  ///< one of `known_families()`, valid forever
   int id = 0;
-  std::array<Vec2, 4> corners_px;
+  TagCorners corners_px;
   double decision_margin = 0.0;
   int hamming = 0;
 };
-
-using TagCorners = std::array<Vec2, 4>;
 
 /// How the corners are refined beyond the quad's outline.
 enum class Refinement {
   kNone,     ///< they are left as they are
   kLibrary,  ///< the library's own
-  kEdges     ///< `refined_corners`
+  kEdges     ///< to where the lines of steepest grey along the four edges meet
 };
 
 struct DetectorOptions {
@@ -71,22 +66,27 @@ struct DetectorOptions {
 [[nodiscard]] std::span<const std::string_view> known_families();
 /// How many ids a family has; 0 for an unknown one.
 [[nodiscard]] int family_size(std::string_view family);
-/// One tag's code as the AprilTag library stores it.
-struct TagCode {
-  struct Bit {
-    int row = 0;  ///< of its cell, counted from the outer edge of the border, negative outside it
-    int column = 0;
-    bool white = false;
-  };
-  int cells = 0;              ///< per side of all that the family defines
-  int border_cells = 0;       ///< per side of the outer edge of the border
-  bool white_border = false;  ///< or black
-  std::vector<Bit> bits;
-};
-/// Nothing for a family or an id that does not exist.
-[[nodiscard]] std::optional<TagCode> tag_code(std::string_view family, int id);
 /// The names in one line, for messages.
 [[nodiscard]] std::string known_families_text();
+
+/// A printed tag's pattern: a square of cells, seen upright, row 0 on top, from one edge of the
+/// part that the family defines to the other (including its white ring, if it has one).
+struct TagTemplate {
+  int cells = 0;             ///< per side
+  int border_cells = 0;      ///< per side of the square whose outer edge is the tag's size
+  std::vector<float> white;  ///< row-major, 1: white, 0: black
+  std::vector<bool> code;    ///< row-major, whether the cell distinguishes ids
+
+  [[nodiscard]] float at(int row, int column) const {
+    return white[static_cast<std::size_t>(row * cells + column)];
+  }
+  /// Length of a cell on a tag of the given size.
+  [[nodiscard]] double cell_m(double size_m) const { return size_m / border_cells; }
+};
+
+/// The template of a tag from the AprilTag library's tables; nothing for a family or an id that
+/// does not exist.
+[[nodiscard]] std::optional<TagTemplate> tag_template(std::string_view family, int id);
 
 /// AprilTag 3's detector (Krogius, Haggenmiller, Olson 2019). One thread at a time. The images are
 /// read in place; the library allocates its own working memory for every call.
@@ -110,25 +110,6 @@ class MarkerDetector {
                         std::vector<MarkerCorners>& found);
   std::unique_ptr<Library> library_;
 };
-
-/// A printed tag's pattern: a square of cells, seen upright, row 0 on top, from one edge of the
-/// part that the family defines to the other (including its white ring, if it has one).
-struct TagTemplate {
-  int cells = 0;             ///< per side
-  int border_cells = 0;      ///< per side of the square whose outer edge is the tag's size
-  std::vector<float> white;  ///< row-major, 1: white, 0: black
-  std::vector<bool> code;    ///< row-major, whether the cell distinguishes ids
-
-  [[nodiscard]] float at(int row, int column) const {
-    return white[static_cast<std::size_t>(row * cells + column)];
-  }
-  /// Length of a cell on a tag of the given size.
-  [[nodiscard]] double cell_m(double size_m) const { return size_m / border_cells; }
-};
-
-/// The template of a tag from the AprilTag library's tables; nothing for a family or an id that
-/// does not exist.
-[[nodiscard]] std::optional<TagTemplate> tag_template(std::string_view family, int id);
 
 /// Margin around a tag's expected corners on every side: a fraction of their extent, and pixels.
 struct BoxRoom {
