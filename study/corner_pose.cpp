@@ -1,16 +1,16 @@
-#include "nav/tracking/corner_pose.h"
+#include "study/corner_pose.h"
 
 #include <cmath>
 #include <Eigen/Dense>
 
 #include "nav/geometry/matrix_as.h"
 
-namespace orthonav::nav {
+namespace orthonav::engine {
 namespace {
 
 /// The tag's motion in the rig (m, rad about its centre), then the errors of the calibration.
 constexpr int kPose = 6;
-constexpr int kCalibration = kCalibrationUnknowns;
+constexpr int kCalibration = nav::kCalibrationUnknowns;
 constexpr int kAll = kPose + kCalibration;
 using Normal = Eigen::Matrix<double, kAll, kAll>;
 using Right = Eigen::Matrix<double, kAll, 1>;
@@ -24,11 +24,11 @@ struct CornerEquations {
 
   /// Corners of one camera. `baseline_m`: of the right one, from it to the left one.
   template <class CameraFrame>
-  bool add(const TagCorners& corners_px, const CameraModel& camera,
+  bool add(const nav::TagCorners& corners_px, const CameraModel& camera,
            const Transform<CameraFrame, Rig>& camera_from_rig, const Transform<Rig, Marker>& pose,
            double size_m, double sd_px, const Vec3* baseline_m) {
-    const auto in_marker_m = corners_in_marker(size_m);
-    const auto rotation = matrix_as<Matrix3>(camera_from_rig.rotation());
+    const auto in_marker_m = nav::corners_in_marker(size_m);
+    const auto rotation = nav::matrix_as<Matrix3>(camera_from_rig.rotation());
     for (std::size_t k = 0; k < corners_px.size(); ++k) {
       const auto ray = camera.unproject(corners_px[k]);
       const auto slope = camera.jacobian_px(corners_px[k]);
@@ -44,14 +44,15 @@ struct CornerEquations {
       by_point << 1 / p.z, 0, -p.x / (p.z * p.z), 0, 1 / p.z, -p.y / (p.z * p.z);
       Row row = Row::Zero();
       row.leftCols<3>() = by_point * rotation;
-      row.middleCols<3>(3) = -by_point * rotation * skew_as<Matrix3>(lever_arm);
+      row.middleCols<3>(3) = -by_point * rotation * nav::skew_as<Matrix3>(lever_arm);
       if (baseline_m != nullptr) {
-        row.middleCols<3>(kPose) = -by_point * skew_as<Matrix3>(p);
-        row.col(kPose + kFocalUnknown) << p.x / p.z, p.y / p.z;
-        row.col(kPose + kBaselineUnknown) = by_point * vector_as<Eigen::Vector3d>(*baseline_m);
+        row.middleCols<3>(kPose) = -by_point * nav::skew_as<Matrix3>(p);
+        row.col(kPose + nav::kFocalUnknown) << p.x / p.z, p.y / p.z;
+        row.col(kPose + nav::kBaselineUnknown) =
+            by_point * nav::vector_as<Eigen::Vector3d>(*baseline_m);
       }
-      row.col(kPose + kTagSizeUnknown) =
-          by_point * rotation * vector_as<Eigen::Vector3d>(lever_arm);
+      row.col(kPose + nav::kTagSizeUnknown) =
+          by_point * rotation * nav::vector_as<Eigen::Vector3d>(lever_arm);
       const Eigen::Vector2d residual(ray->x - p.x / p.z, ray->y - p.y / p.z);
       normal += weight * weight * row.transpose() * row;
       right += weight * weight * row.transpose() * residual;
@@ -59,12 +60,12 @@ struct CornerEquations {
     return true;
   }
 
-  [[nodiscard]] CalibrationEquations calibration() const {
+  [[nodiscard]] nav::CalibrationEquations calibration() const {
     using Square = Eigen::Matrix<double, kCalibration, kCalibration>;
     const auto pose = normal.topLeftCorner<kPose, kPose>().ldlt();
     const Eigen::Matrix<double, kPose, kCalibration> cross =
         normal.topRightCorner<kPose, kCalibration>();
-    CalibrationEquations out;
+    nav::CalibrationEquations out;
     Eigen::Map<Square>(out.information.data()) =
         normal.bottomRightCorner<kCalibration, kCalibration>() -
         cross.transpose() * pose.solve(cross);
@@ -105,8 +106,9 @@ std::optional<CornerPose> corner_pose(const StereoCorners& seen,
       return out;
     }
     const Eigen::Matrix<double, kPose, 1> step = solver.solve(e.right.head<kPose>());
-    out.rig_from_marker = displaced(pose, {step[0], step[1], step[2]}, {step[3], step[4], step[5]});
+    out.rig_from_marker =
+        nav::displaced(pose, {step[0], step[1], step[2]}, {step[3], step[4], step[5]});
   }
 }
 
-}  // namespace orthonav::nav
+}  // namespace orthonav::engine

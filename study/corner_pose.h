@@ -7,12 +7,12 @@
 #include "nav/tracking/online_calibration.h"
 #include "nav/tracking/tag_pose.h"
 
-namespace orthonav::nav {
+namespace orthonav::engine {
 
 /// A tag's corners in the image of each camera; nothing where it was not found.
 struct StereoCorners {
-  std::optional<TagCorners> left_px;
-  std::optional<TagCorners> right_px;
+  std::optional<nav::TagCorners> left_px;
+  std::optional<nav::TagCorners> right_px;
 };
 
 /// The pose that explains a tag's corners best.
@@ -20,7 +20,7 @@ struct CornerPose {
   Transform<Rig, Marker> rig_from_marker;
   PoseCovariance covariance{};  ///< in the rig
   /// If both cameras saw it: the equations for the calibration from the corners.
-  std::optional<CalibrationEquations> calibration;
+  std::optional<nav::CalibrationEquations> calibration;
 };
 
 /// Gauss-Newton on the unit planes of the described cameras, starting from a pose that is right to
@@ -31,4 +31,4 @@ struct CornerPose {
                                                     const StereoCalibration& cameras, double size_m,
                                                     double sd_px);
 
-}  // namespace orthonav::nav
+}  // namespace orthonav::engine

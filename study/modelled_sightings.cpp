@@ -68,7 +68,7 @@ void ModelledSightings::look(const StereoFrame& frame) {
 
 void ModelledSightings::look_at(std::size_t tool, const StereoFrame& frame,
                                 const sim::RoomState& now) {
-  nav::StereoCorners& seen = seen_[tool];
+  StereoCorners& seen = seen_[tool];
   Trail& trail = trails_[tool];
   seen = {};
   if (!now.tool_present[tool]) {
@@ -136,7 +136,7 @@ std::optional<nav::TagCorners> ModelledSightings::with_errors(
 }
 
 std::optional<Transform<Rig, Marker>> ModelledSightings::near(std::size_t tool) const {
-  const nav::StereoCorners& seen = seen_[tool];
+  const StereoCorners& seen = seen_[tool];
   return seen.left_px || seen.right_px ? std::optional(near_[tool]) : std::nullopt;
 }
 

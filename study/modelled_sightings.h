@@ -6,7 +6,7 @@
 #include "base/random.h"
 #include "hal/sim/cameras/tag_occlusion.h"
 #include "hal/sim/sim_headset.h"
-#include "nav/tracking/corner_pose.h"
+#include "study/corner_pose.h"
 #include "study/measurement_model.h"
 
 namespace orthonav::engine {
@@ -22,7 +22,7 @@ class ModelledSightings {
   /// Looks at a pair; the state of the room must be that of the pair.
   void look(const StereoFrame& frame);
   /// In the order of the room's tools.
-  [[nodiscard]] const std::vector<nav::StereoCorners>& seen() const { return seen_; }
+  [[nodiscard]] const std::vector<StereoCorners>& seen() const { return seen_; }
   /// Where the tool is, as a start for a solver; nothing if neither camera sees it.
   [[nodiscard]] std::optional<Transform<Rig, Marker>> near(std::size_t tool) const;
 
@@ -51,7 +51,7 @@ class ModelledSightings {
   sim::TagOcclusion left_;
   sim::TagOcclusion right_;
   std::vector<Trail> trails_;
-  std::vector<nav::StereoCorners> seen_;
+  std::vector<StereoCorners> seen_;
   std::vector<Transform<Rig, Marker>> near_;
   Timestamp before_{};
 };

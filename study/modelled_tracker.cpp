@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "nav/published/corner_tracker.h"
-#include "nav/tracking/corner_pose.h"
 #include "nav/tracking/marker_detector.h"
 #include "nav/tracking/pose_filter.h"
 #include "study/modelled_sightings.h"
@@ -34,7 +33,7 @@ class ModelledFinder final : public nav::TagFinder {
     left_.clear();
     right_.clear();
     for (std::size_t i = 0; i < sightings_.seen().size(); ++i) {
-      const nav::StereoCorners& seen = sightings_.seen()[i];
+      const StereoCorners& seen = sightings_.seen()[i];
       find(i, seen.left_px, left_plan_, left_);
       find(i, seen.right_px, right_plan_, right_);
     }
@@ -128,15 +127,15 @@ class ModelledTracker final : public nav::ToolTracker {
   }
 
   bool measure(std::size_t i, const StereoFrame& frame) {
-    const nav::StereoCorners& seen = sightings_.seen()[i];
+    const StereoCorners& seen = sightings_.seen()[i];
     const auto near = sightings_.near(i);
     const bool found = is_followed(i, frame.time) || pairs_ % kLookEvery == 0;
     if (!near || !found) {
       return false;
     }
     const auto fit =
-        nav::corner_pose(seen, *near, calibration_,
-                         online_.size_factor(i) * tools_[i].marker.size_m, model_.believed_px);
+        corner_pose(seen, *near, calibration_, online_.size_factor(i) * tools_[i].marker.size_m,
+                    model_.believed_px);
     if (!fit) {
       return false;
     }
