@@ -9,8 +9,9 @@
 #include "base/vectorized.h"
 #include "nav/geometry/matrix_as.h"
 
-// The contribution of a block of pixels to a view's equations and to the judgement of the tag's
-// cells. Loops of a fixed length over separate arrays, so that they are vectorized.
+// From grey values to a pose: a tag prepared for its blur; the model of one tag in one image, row
+// by row; what a block of pixels adds to its equations; its light, which is eliminated; and the
+// motion of the tool that all views together ask for.
 
 namespace orthonav::nav {
 
@@ -83,9 +84,11 @@ BlurredTag::BlurredTag(TagTemplate tag, double size_m)
   }
 }
 
+namespace {
+
 /// The blur ends at this many SDs, so that a cell's grey depends on its neighbours only: 3e-5 of it
 /// would lie beyond.
-inline constexpr float kReachSd = 4.0F;
+constexpr float kReachSd = 4.0F;
 
 /// e to the x for x in [-8, 0], with a relative error of 3e-6: a polynomial of 2 to the fractional
 /// part, the whole part put into the exponent. The library's function would not be vectorized.
@@ -127,9 +130,12 @@ inline Beyond beyond(float f, float inverse_sd, float excess_kurtosis) {
           by_kurtosis, gaussian};
 }
 
-namespace {
-
 constexpr std::uint8_t kSaturated = 254;
+/// Fractions of a cell's pixels that agree with it: below the first the cell is partly hidden,
+/// above the second it is visible.
+constexpr float kHiddenFraction = 0.45F;
+constexpr float kFreeFraction = 0.8F;
+
 /// In areas without edges every second column and row is enough: they only determine the light.
 constexpr int kFlatStep = 2;
 /// The position of a corner outside the image is known only roughly.
@@ -235,15 +241,18 @@ Vec2 rough_pixel(const CameraModel& camera, Vec2 u) {
 
 ViewModel::ViewModel() : block_(static_cast<std::size_t>(kBlockColumns) * kBlock, 0.0F) {}
 
-/// Computes the camera's centre and the map from its rays to the tag's cells; `t` in cells. False
-/// if the tag is seen from behind or lies behind the camera.
-bool ViewModel::face(const Mat3& rotation, Vec3 t) {
-  const Vec3 eye = -(rotation.transposed() * t);
+/// Computes the camera's centre, the map from its rays to the tag's cells, and the part of the
+/// image to look at. False if the tag is seen from behind or lies behind the camera or beside the
+/// image.
+bool ViewModel::place(const CameraModel& camera, const BlurredTag& tag, const CameraFromTag& pose) {
+  const Vec3 t = pose.translation_m / tag.cell_m();
+  const Vec3 eye = -(pose.rotation.transposed() * t);
   if (!(eye.z > 0.5) || !(t.z > 0.5)) {
     return false;
   }
   eye_cells_ = eye;
-  const Mat3 inverse = inverse_of(Mat3::from_columns(rotation.column(0), rotation.column(1), t));
+  const Mat3 inverse =
+      inverse_of(Mat3::from_columns(pose.rotation.column(0), pose.rotation.column(1), t));
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) {
       plane_from_ray_[static_cast<std::size_t>(3 * r + c)] =
@@ -251,14 +260,6 @@ bool ViewModel::face(const Mat3& rotation, Vec3 t) {
     }
   }
   depth_ = static_cast<float>(t.z);
-  return true;
-}
-
-bool ViewModel::place(const CameraModel& camera, const BlurredTag& tag, const CameraFromTag& pose) {
-  const Vec3 t = pose.translation_m / tag.cell_m();
-  if (!face(pose.rotation, t)) {
-    return false;
-  }
   half_ = 0.5F * static_cast<float>(tag.cells().cells);
   Vec2 low{1e9, 1e9};
   Vec2 high{-1e9, -1e9};
@@ -421,9 +422,18 @@ void ViewModel::linearize(const GreyImage& image, const CameraModel& camera, con
     collect(image, tag, y, spread(rays, y, light), light, doubt_cells, out);
   }
   finish(light, doubt_cells, out);
-  judge_cells(cell_weights);
+  // An occluder covers a connected area: a cell with many outliers is doubted as a whole.
+  cell_weights.resize(cells);
+  for (std::size_t i = 0; i < cells; ++i) {
+    const float fraction = counted_[i] > 0.0F ? kept_[i] / counted_[i] : 1.0F;
+    const float t =
+        std::clamp((fraction - kHiddenFraction) / (kFreeFraction - kHiddenFraction), 0.0F, 1.0F);
+    cell_weights[i] = t * t * (3.0F - 2.0F * t);
+  }
 }
 
+// The contribution of a block of pixels: loops of a fixed length over separate arrays, so that they
+// are vectorized.
 namespace {
 
 /// Tukey's biweight at 4.7 SD: 95 % efficient on clean noise.
@@ -433,11 +443,6 @@ constexpr float kOutlierSd = 4.7F;
 constexpr float kEdgeSlope = 0.1F;
 /// Below this squared slope a pixel has no influence.
 constexpr float kLeastSlope2 = 1e-4F;
-/// Fractions of a cell's pixels that agree with it: below the first the cell is partly hidden,
-/// above the second it is visible.
-constexpr float kHiddenFraction = 0.45F;
-constexpr float kFreeFraction = 0.8F;
-
 // Inlined also into what is compiled for AVX2.
 [[gnu::always_inline]] inline float dot(const float* __restrict a, const float* __restrict b) {
   std::array<float, 8> lanes{};
@@ -642,17 +647,6 @@ void ViewModel::score(int pixels) {
   }
 }
 
-/// An occluder covers a connected area: a cell with many outliers is doubted as a whole.
-void ViewModel::judge_cells(std::vector<float>& cell_weights) const {
-  cell_weights.resize(counted_.size());
-  for (std::size_t i = 0; i < counted_.size(); ++i) {
-    const float fraction = counted_[i] > 0.0F ? kept_[i] / counted_[i] : 1.0F;
-    const float t =
-        std::clamp((fraction - kHiddenFraction) / (kFreeFraction - kHiddenFraction), 0.0F, 1.0F);
-    cell_weights[i] = t * t * (3.0F - 2.0F * t);
-  }
-}
-
 void ViewModel::finish(const Photometry& light, double doubt_cells, ViewEquations& out) {
   const int n = filled_;
   filled_ = 0;
@@ -672,6 +666,12 @@ void ViewModel::finish(const Photometry& light, double doubt_cells, ViewEquation
 
 namespace {
 
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+constexpr int kLight = static_cast<int>(kLightColumns);
+using LightMatrix = Eigen::Matrix<double, kLight, kLight>;
+using LightVector = Eigen::Matrix<double, kLight, 1>;
+
 constexpr double kBlurFloorPx = 0.25;
 constexpr double kBlurCeilingCells = 0.6;
 /// Largest change at once of a logarithm of blur, or of a fraction of grey.
@@ -681,51 +681,137 @@ constexpr double kVarianceFloor = 0.3;
 constexpr double kFewestFractions = 20.0;
 /// Neither black nor white gets less than this fraction of the mean noise.
 constexpr double kLeastOfMean = 0.25;
+/// The fraction of clean noise's variance that remains under the robust weights: E[w r²] / (E[w]
+/// σ²) of Tukey's biweight at 4.7 SD.
+constexpr double kRobustVariance = 0.829;
+/// The scatter of clean noise after robust weighting, where without weights it would be 1: 0.72
+/// from the biweight's moments (E[psi^2] E[w] / E[psi']^2), the rest as measured.
+constexpr double kCleanScatter = 0.82;
 
 double bounded(double v, double limit) { return std::clamp(v, -limit, limit); }
 
-}  // namespace
+/// A view's normal equations by pose and light, with weak priors on the light, which keep a view
+/// without white cells or without edges solvable.
+struct Split {
+  Matrix6 pose;
+  LightMatrix light;
+  Eigen::Matrix<double, 6, kLight> cross;
+  Vector6 pose_right;
+  LightVector light_right;
 
-LightPrior light_prior(const Photometry& light) {
-  LightPrior prior;
-  const auto step = [&](std::size_t i, double sd) { prior.weight[i] = 1.0 / (sd * sd); };
-  const auto about_zero = [&](std::size_t i, double value, double sd) {
-    step(i, sd);
-    prior.right[i] = -value / (sd * sd);
-  };
-  step(0, 500.0);
-  step(1, 500.0);
-  about_zero(2, light.slope[0], 0.3);
-  about_zero(3, light.slope[1], 0.3);
-  step(4, 0.5);
-  step(5, 0.5);
-  about_zero(6, light.excess_kurtosis[0], 1.0);
-  about_zero(7, light.excess_kurtosis[1], 1.0);
-  about_zero(8, light.blur_correlation, 0.3);
-  for (std::size_t i = 0; i < light.response.size(); ++i) {
-    about_zero(9 + i, light.response[i], 0.5);
+  Split(const ViewEquations& e, const Photometry& known) {
+    const auto at = [&](int r, int c) {
+      return e.sum(static_cast<std::size_t>(std::min(r, c)),
+                   static_cast<std::size_t>(std::max(r, c)));
+    };
+    constexpr int kRight = static_cast<int>(kColumns);
+    for (int r = 0; r < 6; ++r) {
+      for (int c = 0; c < 6; ++c) {
+        pose(r, c) = at(r, c);
+      }
+      for (int c = 0; c < kLight; ++c) {
+        cross(r, c) = at(r, 6 + c);
+      }
+      pose_right(r) = at(r, kRight);
+    }
+    for (int r = 0; r < kLight; ++r) {
+      for (int c = 0; c < kLight; ++c) {
+        light(r, c) = at(6 + r, 6 + c);
+      }
+      light_right(r) = at(6 + r, kRight);
+    }
+    const auto prior = [&](int i, double sd, double about_zero) {
+      light(i, i) += 1.0 / (sd * sd);
+      light_right(i) += -about_zero / (sd * sd);
+    };
+    prior(0, 500.0, 0.0);
+    prior(1, 500.0, 0.0);
+    prior(2, 0.3, known.slope[0]);
+    prior(3, 0.3, known.slope[1]);
+    prior(4, 0.5, 0.0);
+    prior(5, 0.5, 0.0);
+    prior(6, 1.0, known.excess_kurtosis[0]);
+    prior(7, 1.0, known.excess_kurtosis[1]);
+    prior(8, 0.3, known.blur_correlation);
+    for (int i = 0; i < 3; ++i) {
+      prior(9 + i, 0.5, known.response[static_cast<std::size_t>(i)]);
+    }
   }
-  return prior;
+};
+
+/// The pose's equations without the light, and how the light changes with a small motion of the
+/// tag.
+struct Eliminated {
+  Split split;
+  Eigen::LLT<LightMatrix> light;
+  Eigen::Matrix<double, kLight, 6> gain;
+  Matrix6 normal;
+
+  Eliminated(const ViewEquations& e, const Photometry& known) : split(e, known) {
+    light.compute(split.light);
+    gain = light.solve(split.cross.transpose());
+    normal = split.pose - split.cross * gain;
+  }
+};
+
+ReducedView reduced(const ViewEquations& equations, const Photometry& known) {
+  const Eliminated e(equations, known);
+  const double trust = 1.0 / std::max(known.sandwich_factor, 1.0);
+  ReducedView view;
+  Eigen::Map<Matrix6>(view.normal.data()) = trust * e.normal;
+  Eigen::Map<Vector6>(view.right.data()) =
+      trust * (e.split.pose_right - e.split.cross * e.light.solve(e.split.light_right));
+  return view;
 }
 
-void apply(const LightStep& step, double px_a_cell, Photometry& light) {
+/// How much more strongly the pieces of the tag's edges pull at the pose than noise alone would: 1
+/// if the model is right. `scores` are the pulls, as in `ViewModel::scores`. (White's sandwich,
+/// Econometrica 48, 1980, with a piece of an edge as a cluster, reduced to one number.)
+double sandwich_factor(const ViewEquations& equations, const Photometry& known,
+                       std::span<const float> scores) {
+  const Eliminated e(equations, known);
+  const Eigen::LLT<Matrix6> pose(e.normal);
+  if (pose.info() != Eigen::Success) {
+    return 1.0;
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i + kColumns <= scores.size(); i += kColumns) {
+    const Eigen::Map<const Eigen::Matrix<float, 6, 1>> of_pose(scores.data() + i);
+    const Eigen::Map<const Eigen::Matrix<float, kLight, 1>> of_light(scores.data() + i +
+                                                                     kPoseColumns);
+    const Vector6 pull = of_pose.cast<double>() - e.gain.transpose() * of_light.cast<double>();
+    sum += pose.matrixL().solve(pull).squaredNorm();
+  }
+  return sum / (6.0 * kCleanScatter);
+}
+
+/// Changes the light by the step that belongs to a motion of the tag, within physical limits of
+/// light and lenses.
+void update_light(const ViewEquations& equations, const Vector6& of_tag, double px_a_cell,
+                  Photometry& light) {
+  const Split s(equations, light);
+  const LightVector step = s.light.llt().solve(s.light_right - s.cross.transpose() * of_tag);
   light.black += bounded(step[0], 100.0);
   light.contrast = std::clamp(light.contrast + bounded(step[1], 150.0), 5.0, 400.0);
   for (std::size_t i = 0; i < 2; ++i) {
-    light.slope[i] = std::clamp(light.slope[i] + step[2 + i], -0.8, 0.8);
+    const auto k = static_cast<Eigen::Index>(i);
+    light.slope[i] = std::clamp(light.slope[i] + step[2 + k], -0.8, 0.8);
     light.blur_cells[i] =
-        std::clamp(light.blur_cells[i] * std::exp(bounded(step[4 + i], kLargestLightStep)),
+        std::clamp(light.blur_cells[i] * std::exp(bounded(step[4 + k], kLargestLightStep)),
                    kBlurFloorPx / px_a_cell, kBlurCeilingCells);
     light.excess_kurtosis[i] =
-        std::clamp(light.excess_kurtosis[i] + bounded(step[6 + i], 1.0), -1.2, 3.0);
+        std::clamp(light.excess_kurtosis[i] + bounded(step[6 + k], 1.0), -1.2, 3.0);
   }
   light.blur_correlation = std::clamp(light.blur_correlation + bounded(step[8], 0.5), -0.8, 0.8);
   // Stays well away from where the response would no longer rise everywhere.
   for (std::size_t i = 0; i < light.response.size(); ++i) {
-    light.response[i] = std::clamp(light.response[i] + bounded(step[9 + i], 0.3), -0.9, 0.9);
+    light.response[i] = std::clamp(
+        light.response[i] + bounded(step[9 + static_cast<Eigen::Index>(i)], 0.3), -0.9, 0.9);
   }
 }
 
+/// Updates noise and scatter about the model: `fraction` of the remembered value comes from these
+/// residuals.
 void learn_noise(const ViewEquations& e, double fraction, Photometry& light) {
   // Inverses are averaged, since an occasional pair has a large value.
   if (e.sandwich_factor > 0.0) {
@@ -751,126 +837,6 @@ void learn_noise(const ViewEquations& e, double fraction, Photometry& light) {
   }
 }
 
-namespace {
-
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-constexpr int kLight = static_cast<int>(kLightColumns);
-using LightMatrix = Eigen::Matrix<double, kLight, kLight>;
-using LightVector = Eigen::Matrix<double, kLight, 1>;
-using CrossMatrix = Eigen::Matrix<double, 6, kLight>;
-
-/// The scatter of clean noise after robust weighting, where without weights it would be 1: 0.72
-/// from the biweight's moments (E[psi^2] E[w] / E[psi']^2), the rest as measured.
-constexpr double kCleanScatter = 0.82;
-
-struct Split {
-  Matrix6 pose;
-  LightMatrix light;
-  CrossMatrix cross;
-  Vector6 pose_right;
-  LightVector light_right;
-};
-
-Split split(const ViewEquations& e) {
-  Split s;
-  const auto at = [&](std::size_t r, std::size_t c) {
-    return e.sum(std::min(r, c), std::max(r, c));
-  };
-  for (std::size_t r = 0; r < kColumns; ++r) {
-    for (std::size_t c = 0; c < kColumns; ++c) {
-      const auto row = static_cast<Eigen::Index>(r);
-      const auto column = static_cast<Eigen::Index>(c);
-      if (r < 6 && c < 6) {
-        s.pose(row, column) = at(r, c);
-      }
-      if (r < 6 && c >= 6) {
-        s.cross(row, column - 6) = at(r, c);
-      }
-      if (r >= 6 && c >= 6) {
-        s.light(row - 6, column - 6) = at(r, c);
-      }
-    }
-  }
-  for (std::size_t r = 0; r < 6; ++r) {
-    s.pose_right(static_cast<Eigen::Index>(r)) = at(r, kColumns);
-  }
-  for (std::size_t r = 0; r < kLightColumns; ++r) {
-    s.light_right(static_cast<Eigen::Index>(r)) = at(6 + r, kColumns);
-  }
-  return s;
-}
-
-void add_prior(Split& s, const Photometry& light) {
-  const LightPrior prior = light_prior(light);
-  for (int i = 0; i < kLight; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    s.light(i, i) += prior.weight[k];
-    s.light_right(i) += prior.right[k];
-  }
-}
-
-/// The pose's equations without the light, and how the light changes with a small motion of the
-/// tag.
-struct Eliminated {
-  Split split;
-  Eigen::LLT<LightMatrix> light;
-  Eigen::Matrix<double, kLight, 6> gain;
-  Matrix6 normal;
-
-  Eliminated(const ViewEquations& e, const Photometry& known) : split(orthonav::nav::split(e)) {
-    add_prior(split, known);
-    light.compute(split.light);
-    gain = light.solve(split.cross.transpose());
-    normal = split.pose - split.cross * gain;
-  }
-};
-
-}  // namespace
-
-ReducedView reduced(const ViewEquations& equations, const Photometry& known) {
-  const Eliminated e(equations, known);
-  const double trust = 1.0 / std::max(known.sandwich_factor, 1.0);
-  ReducedView view;
-  Eigen::Map<Matrix6>(view.normal.data()) = trust * e.normal;
-  Eigen::Map<Vector6>(view.right.data()) =
-      trust * (e.split.pose_right - e.split.cross * e.light.solve(e.split.light_right));
-  return view;
-}
-
-LightStep light_step(const ViewEquations& equations, const Photometry& known,
-                     const std::array<double, 6>& of_tag) {
-  Split s = split(equations);
-  add_prior(s, known);
-  LightStep step;
-  Eigen::Map<LightVector>(step.data()) = s.light.llt().solve(
-      s.light_right - s.cross.transpose() * Eigen::Map<const Vector6>(of_tag.data()));
-  return step;
-}
-
-double sandwich_factor(const ViewEquations& equations, const Photometry& known,
-                       std::span<const float> scores) {
-  const Eliminated e(equations, known);
-  const Eigen::LLT<Matrix6> pose(e.normal);
-  if (pose.info() != Eigen::Success) {
-    return 1.0;
-  }
-  double sum = 0.0;
-  for (std::size_t i = 0; i + kColumns <= scores.size(); i += kColumns) {
-    const Eigen::Map<const Eigen::Matrix<float, 6, 1>> of_pose(scores.data() + i);
-    const Eigen::Map<const Eigen::Matrix<float, kLight, 1>> of_light(scores.data() + i +
-                                                                     kPoseColumns);
-    const Vector6 pull = of_pose.cast<double>() - e.gain.transpose() * of_light.cast<double>();
-    sum += pose.matrixL().solve(pull).squaredNorm();
-  }
-  return sum / (6.0 * kCleanScatter);
-}
-
-namespace {
-
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
 constexpr int kFitMaxIterations = 10;
 /// A smaller correction ends the search: a small part of the pose's noise.
 constexpr double kFitLastStep_px = 0.02;
@@ -890,16 +856,8 @@ constexpr double kSettledPx = 0.05;
 /// tool (in its own frame, in metres).
 Matrix6 tag_by_tool(const Transform<Marker, Tag>& marker_from_tag, double cell_m) {
   Matrix6 out = Matrix6::Zero();
-  const Mat3 tag_from_marker = marker_from_tag.rotation().transposed();
-  const Vec3 lever_arm = marker_from_tag.translation();
-  Eigen::Matrix3d r;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      r(i, j) = tag_from_marker[i][static_cast<std::size_t>(j)];
-    }
-  }
-  Eigen::Matrix3d cross;
-  cross << 0, -lever_arm.z, lever_arm.y, lever_arm.z, 0, -lever_arm.x, -lever_arm.y, lever_arm.x, 0;
+  const auto r = matrix_as<Eigen::Matrix3d>(marker_from_tag.rotation().transposed());
+  const auto cross = skew_as<Eigen::Matrix3d>(marker_from_tag.translation());
   out.topLeftCorner<3, 3>() = r / cell_m;
   out.topRightCorner<3, 3>() = -r * cross / cell_m;
   out.bottomRightCorner<3, 3>() = r;
@@ -921,7 +879,7 @@ struct MotionEquations {
     right += motion.transpose() * own_right;
   }
   /// False if the views do not determine the motion.
-  bool solve(Eigen::Map<Vector6>& motion, PoseCovariance& covariance) const {
+  bool solve(Vector6& motion, PoseCovariance& covariance) const {
     const Eigen::LDLT<Matrix6> solver(normal);
     motion = solver.solve(right);
     if (solver.info() != Eigen::Success || !motion.allFinite() || !solver.isPositive()) {
@@ -931,13 +889,6 @@ struct MotionEquations {
     return true;
   }
 };
-
-/// The pose after a motion in its own frame.
-Transform<Rig, Marker> moved_in_itself(const Transform<Rig, Marker>& pose, Vec3 translation,
-                                       Vec3 rotation_vector) {
-  return {orthonormalized(pose.rotation() * rotation_from_vector(rotation_vector)),
-          pose.translation() + pose.rotation() * translation};
-}
 
 /// The derivative of a tag's apparent motion (in its frame, in cells) by the errors of the
 /// calibration, in the order of `CalibrationEquations`. `baseline_m`: from the right camera to the
@@ -985,48 +936,19 @@ CameraFromTag PhotometricSolver::camera_from_tag(const TagView& view,
   return {seen.rotation(), seen.translation()};
 }
 
-bool PhotometricSolver::gather(const StereoFrame& frame, const Transform<Rig, Marker>& pose,
-                               double doubt_m, TagView& view, ViewEquations& e) {
-  const BlurredTag& tag = *view.tag;
-  model_.linearize(view.right ? frame.right : frame.left, camera_of(view),
-                   view.right ? *right_rays_ : *left_rays_, tag, camera_from_tag(view, pose),
-                   view.light, doubt_m / tag.cell_m(), view.cell_weights, e);
-  e.sandwich_factor = sandwich_factor(e, view.light, model_.scores());
-  view.kept_fraction = e.pixels > 0.0 ? e.kept / e.pixels : 0.0;
-  return e.pixels >= kFewestPixels && view.kept_fraction >= kMinKeptFraction &&
-         view.light.contrast >= kMinContrast_grey;
-}
-
 double PhotometricSolver::pixels_a_metre(const TagView& view,
                                          const Transform<Rig, Marker>& pose) const {
   return focal_px(view.right) / std::max(camera_from_tag(view, pose).translation_m.z, 1e-3);
 }
 
-/// Computes the light of each view, given the pose's step.
-void PhotometricSolver::update_light(const std::array<double, 6>& step,
-                                     const Transform<Rig, Marker>& pose,
-                                     std::span<TagView> views) const {
-  const Eigen::Map<const Vector6> motion(step.data());
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    TagView& view = views[i];
-    if (!view.used) {
-      continue;
-    }
-    const double cell_m = view.tag->cell_m();
-    std::array<double, 6> of_tag;
-    Eigen::Map<Vector6>(of_tag.data()) = tag_by_tool(view.marker_from_tag, cell_m) * motion;
-    const LightStep step_of_light = light_step(equations_[i], view.light, of_tag);
-    apply(step_of_light, cell_m * pixels_a_metre(view, pose), view.light);
-  }
-}
-
-/// The equations of the pose alone: those of every view, its light eliminated.
 std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame& frame,
                                                                double doubt_m,
                                                                std::span<TagView> views,
                                                                PhotometricFit& fit) {
+  const Transform<Rig, Marker> pose = fit.rig_from_marker;
   MotionEquations equations;
   Step out;
+  double cell_m = 1.0;  // of the smallest tag
   fit.views = 0;
   fit.left = fit.right = false;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -1034,28 +956,49 @@ std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame
     if (!view.used) {
       continue;
     }
-    view.used = gather(frame, fit.rig_from_marker, doubt_m, view, equations_[i]);
+    const BlurredTag& tag = *view.tag;
+    ViewEquations& e = equations_[i];
+    model_.linearize(view.right ? frame.right : frame.left,
+                     view.right ? calibration_.right : calibration_.left,
+                     view.right ? *right_rays_ : *left_rays_, tag, camera_from_tag(view, pose),
+                     view.light, doubt_m / tag.cell_m(), view.cell_weights, e);
+    e.sandwich_factor = sandwich_factor(e, view.light, model_.scores());
+    view.kept_fraction = e.pixels > 0.0 ? e.kept / e.pixels : 0.0;
+    view.used = e.pixels >= kFewestPixels && view.kept_fraction >= kMinKeptFraction &&
+                view.light.contrast >= kMinContrast_grey;
     if (!view.used) {
       continue;
     }
-    equations.add(view, equations_[i]);
+    equations.add(view, e);
     ++fit.views;
     (view.right ? fit.right : fit.left) = true;
-    out.pixels_a_metre = std::max(out.pixels_a_metre, pixels_a_metre(view, fit.rig_from_marker));
-    out.cell_m = std::min(out.cell_m, view.tag->cell_m());
+    out.pixels_a_metre = std::max(out.pixels_a_metre, pixels_a_metre(view, pose));
+    cell_m = std::min(cell_m, tag.cell_m());
   }
-  Eigen::Map<Vector6> motion(out.motion.data());
+  Vector6 motion;
   if (fit.views == 0 || !equations.solve(motion, fit.covariance)) {
     return std::nullopt;
   }
-  update_light(out.motion, fit.rig_from_marker, views);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    TagView& view = views[i];
+    if (view.used) {
+      const double own_m = view.tag->cell_m();
+      update_light(equations_[i], tag_by_tool(view.marker_from_tag, own_m) * motion,
+                   own_m * pixels_a_metre(view, pose), view.light);
+    }
+  }
   // Displacement of the farthest cells, by translation and by rotation.
-  out.size_m = std::max(motion.head<3>().norm(), motion.tail<3>().norm() * 4.0 * out.cell_m);
-  const double limit_m = kLargestStepCells * out.cell_m;
+  out.size_m = std::max(motion.head<3>().norm(), motion.tail<3>().norm() * 4.0 * cell_m);
+  const double limit_m = kLargestStepCells * cell_m;
   if (out.size_m > limit_m) {
     motion *= limit_m / out.size_m;
     out.size_m = limit_m;
   }
+  // In the tool's own frame.
+  const Mat3 turn = rotation_from_vector({motion[3], motion[4], motion[5]});
+  fit.rig_from_marker = {
+      orthonormalized(pose.rotation() * turn),
+      pose.translation() + pose.rotation() * Vec3{motion[0], motion[1], motion[2]}};
   return out;
 }
 
@@ -1074,13 +1017,17 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
     if (!taken) {
       return std::nullopt;
     }
-    const auto& m = taken->motion;
-    fit.rig_from_marker =
-        moved_in_itself(fit.rig_from_marker, {m[0], m[1], m[2]}, {m[3], m[4], m[5]});
     ++fit.iterations;
     doubt =
         std::max(std::min(kLeftOfStep * taken->size_m, doubt), kSettledPx / taken->pixels_a_metre);
-    const bool all_known = learn_new_light(views);
+    // A new light is learnt during the fit: its initial error is not noise.
+    bool all_known = true;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      if (views[i].used && !views[i].light.known) {
+        all_known = false;
+        learn_noise(equations_[i], 1.0, views[i].light);
+      }
+    }
     const int least = all_known ? 2 : kNewLightIterations;
     if (taken->size_m * taken->pixels_a_metre < kFitLastStep_px && fit.iterations >= least) {
       break;
@@ -1096,19 +1043,6 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
     views[i].light.known = true;
   }
   return fit;
-}
-
-/// A new light is learnt during the fit: its initial error is not noise. True if none is new.
-bool PhotometricSolver::learn_new_light(std::span<TagView> views) const {
-  bool all_known = true;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    if (!views[i].used || views[i].light.known) {
-      continue;
-    }
-    all_known = false;
-    learn_noise(equations_[i], 1.0, views[i].light);
-  }
-  return all_known;
 }
 
 std::optional<CalibrationEquations> PhotometricSolver::calibration_equations(

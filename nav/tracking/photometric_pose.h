@@ -78,7 +78,8 @@ struct Photometry {
   /// Additional variance along edges, per square of the slope of the blurred template (per cell):
   /// there the model's error exceeds the noise.
   double edge_variance = 0.0;
-  /// How much more strongly the edges pull at the pose than noise alone would (`scatter`).
+  /// How much more strongly the edges pull at the pose than noise alone would
+  /// (`ViewEquations::sandwich_factor`).
   double sandwich_factor = 1.0;
   bool known = false;  ///< from an earlier fit
 };
@@ -89,10 +90,6 @@ inline constexpr std::size_t kPoseColumns = 6;
 /// Black, contrast, slopes, logarithms of blur, excess kurtosis, blur correlation, response.
 inline constexpr std::size_t kLightColumns = 12;
 inline constexpr std::size_t kColumns = kPoseColumns + kLightColumns;
-
-/// The fraction of clean noise's variance that remains under the robust weights: E[w r²] / (E[w]
-/// σ²) of Tukey's biweight at 4.7 SD.
-inline constexpr double kRobustVariance = 0.829;
 
 /// The sums of weighted least squares over the pixels of one view, and what they say about the fit.
 struct ViewEquations {
@@ -152,7 +149,6 @@ class ViewModel {
     kFirst,
     kBlockColumns = kFirst + kColumns + 1
   };
-  bool face(const Mat3& rotation, Vec3 t);
   bool place(const CameraModel& camera, const BlurredTag& tag, const CameraFromTag& pose);
   /// Pixels [from, to) of a row, counted from `x0_`: those on the tag lie between.
   struct OnTag {
@@ -172,7 +168,6 @@ class ViewModel {
   [[nodiscard]] int pieces_across() const {
     return static_cast<int>((2.0F * half_ + 0.5F) / kPieceCells) + 1;
   }
-  void judge_cells(std::vector<float>& cell_weights) const;
 
   std::vector<float> scores_;
   std::vector<float> row_;
@@ -194,41 +189,12 @@ class ViewModel {
   float half_ = 0.0F;
 };
 
-/// One entry per light column of `ViewEquations`.
-using LightStep = std::array<double, kLightColumns>;
-
-/// Weak priors on the light, which keep a view without white cells or without edges solvable: their
-/// additions to the diagonal of the view's normal equations and to the right-hand side.
-struct LightPrior {
-  LightStep weight{};
-  LightStep right{};
-};
-[[nodiscard]] LightPrior light_prior(const Photometry& light);
-
-/// Changes the light by a step, within physical limits of light and lenses.
-void apply(const LightStep& step, double px_a_cell, Photometry& light);
-
-/// Updates noise and scatter about the model: `fraction` of the remembered value comes from these
-/// residuals.
-void learn_noise(const ViewEquations& equations, double fraction, Photometry& light);
-
 /// A view's equations for the tag's pose, with its light eliminated (Schur complement). Residuals
 /// that scatter more than their noise reduce its weight.
 struct ReducedView {
   std::array<double, 36> normal{};
   std::array<double, 6> right{};
 };
-[[nodiscard]] ReducedView reduced(const ViewEquations& equations, const Photometry& light);
-
-/// The step of the light that belongs to a step of the tag's pose.
-[[nodiscard]] LightStep light_step(const ViewEquations& equations, const Photometry& light,
-                                   const std::array<double, 6>& of_tag);
-
-/// How much more strongly the pieces of the tag's edges pull at the pose than noise alone would: 1
-/// if the model is right. `scores` are the pulls, as in `ViewModel::scores`. (White's sandwich,
-/// Econometrica 48, 1980, with a piece of an edge as a cluster, reduced to one number.)
-[[nodiscard]] double sandwich_factor(const ViewEquations& equations, const Photometry& light,
-                                     std::span<const float> scores);
 
 /// One tag of a tool in one image, with the light remembered for it.
 struct TagView {
@@ -293,23 +259,14 @@ class PhotometricSolver {
 
  private:
   struct Step {
-    std::array<double, 6> motion{};  ///< of the tool in its own frame: m, rad
-    double size_m = 0.0;             ///< how far the motion moves the farthest cells
-    double pixels_a_metre = 0.0;     ///< in the nearest view
-    double cell_m = 1.0;             ///< of the smallest tag
+    double size_m = 0.0;          ///< how far the motion moves the farthest cells
+    double pixels_a_metre = 0.0;  ///< in the nearest view
   };
+  /// Moves the pose of `fit`, with the light of every view eliminated, and updates the lights.
   std::optional<Step> step(const StereoFrame& frame, double doubt_m, std::span<TagView> views,
                            PhotometricFit& fit);
-  bool gather(const StereoFrame& frame, const Transform<Rig, Marker>& pose, double doubt_m,
-              TagView& view, ViewEquations& e);
-  void update_light(const std::array<double, 6>& step, const Transform<Rig, Marker>& pose,
-                    std::span<TagView> views) const;
-  bool learn_new_light(std::span<TagView> views) const;
   [[nodiscard]] double pixels_a_metre(const TagView& view,
                                       const Transform<Rig, Marker>& pose) const;
-  [[nodiscard]] const CameraModel& camera_of(const TagView& view) const {
-    return view.right ? calibration_.right : calibration_.left;
-  }
 
   StereoCalibration calibration_;
   // Copies share them: no rotation of a camera changes its rays.
