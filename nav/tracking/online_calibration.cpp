@@ -7,7 +7,6 @@
 #include <utility>
 
 namespace orthonav::nav {
-
 namespace {
 
 /// Errors are correlated from pair to pair: only this fraction of a pair's information is new.

@@ -14,7 +14,6 @@
 // motion of the tool that all views together ask for.
 
 namespace orthonav::nav {
-
 namespace {
 
 /// From the two neighbours in a row that are nearest to the middle of the image and have

@@ -15,7 +15,6 @@
 #include "nav/statistics/consensus.h"
 
 namespace orthonav::nav {
-
 namespace {
 
 using Poses = std::span<const Transform<World, Marker>>;

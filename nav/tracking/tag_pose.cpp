@@ -12,7 +12,6 @@
 #include "nav/statistics/levenberg_marquardt.h"
 
 namespace orthonav::nav {
-
 namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;

@@ -8,7 +8,6 @@
 #include "nav/tracking/tag_pose.h"
 
 namespace orthonav::nav {
-
 namespace {
 
 constexpr int kLargestRadiusPx = 40;
@@ -227,6 +226,14 @@ std::optional<CellMatch> match_near(const StereoFrame& frame, const TagView& vie
   return match.code < kSameId ? std::nullopt : std::optional(match);
 }
 
+/// Whether the image shows a view's tag where the tool's pose puts it.
+bool is_shown(const StereoFrame& frame, const TagView& view, const Transform<Rig, Marker>& pose,
+              const PhotometricSolver& solver, TagSearch& search) {
+  const CellMatch match = search.match(image_of(frame, view), camera_of(solver, view), *view.tag,
+                                       solver.camera_from_tag(view, pose));
+  return match.correlation >= kBelieved && match.code >= kSameId;
+}
+
 /// Converts shifts in the images to a translation in space, by least squares.
 struct TranslationInSpace {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
@@ -335,25 +342,6 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
   return true;
 }
 
-bool ToolFollower::looks_right(const StereoFrame& frame, const PhotometricFit& fit,
-                               const PhotometricSolver& solver, TagSearch& search) const {
-  const bool one_camera = fit.left != fit.right;
-  for (const TagView& view : views_) {
-    if (!view.used) {
-      continue;
-    }
-    const CellMatch match = search.match(image_of(frame, view), camera_of(solver, view), *view.tag,
-                                         solver.camera_from_tag(view, fit.rig_from_marker));
-    if (match.correlation < kBelieved || match.code < kSameId) {
-      return false;
-    }
-    if (one_camera && view.kept_fraction < kKeptByOne) {
-      return false;
-    }
-  }
-  return true;
-}
-
 std::optional<ToolFit> ToolFollower::follow(const StereoFrame& frame,
                                             const Transform<Rig, Marker>& expected, double doubt_m,
                                             PhotometricSolver& solver, TagSearch& search) {
@@ -364,8 +352,14 @@ std::optional<ToolFit> ToolFollower::follow(const StereoFrame& frame,
   const double cell_m = tags_.front().cell_m();
   const auto fit =
       solver.solve(frame, start, std::min(doubt_m, kUndisplacedCells * cell_m), views_);
-  if (!fit || !looks_right(frame, *fit, solver, search)) {
+  if (!fit) {
     return std::nullopt;
+  }
+  for (const TagView& view : views_) {
+    if (view.used && (!is_shown(frame, view, fit->rig_from_marker, solver, search) ||
+                      (fit->left != fit->right && view.kept_fraction < kKeptByOne))) {
+      return std::nullopt;
+    }
   }
   for (std::size_t i = 0; i < views_.size(); ++i) {
     if (views_[i].used) {
@@ -400,13 +394,9 @@ std::optional<CalibrationEquations> ToolFollower::equations_alone(const StereoFr
     alone_.used = true;
     const auto best = solver.solve(frame, views_[i].used ? fit.rig_from_marker : *found_[i],
                                    kUndisplacedCells * alone_.tag->cell_m(), {&alone_, 1});
-    if (!best || alone_.kept_fraction < kKeptByOne) {
-      return std::nullopt;  // it is hidden there
-    }
-    const CellMatch match =
-        search.match(image_of(frame, alone_), camera_of(solver, alone_), *alone_.tag,
-                     solver.camera_from_tag(alone_, best->rig_from_marker));
-    if (match.correlation < kBelieved || match.code < kSameId) {
+    // It may be hidden there.
+    if (!best || alone_.kept_fraction < kKeptByOne ||
+        !is_shown(frame, alone_, best->rig_from_marker, solver, search)) {
       return std::nullopt;
     }
     return PhotometricSolver::shifted(alone_, solver.view_equations(0, alone_),

@@ -114,8 +114,6 @@ class ToolFollower {
   Status add(const MarkerDefinition& marker, const Transform<Marker, Tag>& marker_from_tag);
   bool choose_views(const StereoFrame& frame, Transform<Rig, Marker>& pose, double doubt_m,
                     const PhotometricSolver& solver, TagSearch& search);
-  [[nodiscard]] bool looks_right(const StereoFrame& frame, const PhotometricFit& fit,
-                                 const PhotometricSolver& solver, TagSearch& search) const;
   /// The calibration equations from what each camera says alone, at the pose of a fit: where the
   /// pictures contradict each other, a robust fit to both leaves out what does. Nothing if no tag
   /// is seen by both.
