@@ -10,7 +10,7 @@
 #include "base/stopwatch.h"
 #include "engine/case/tool_file.h"
 #include "engine/phantom/phantom.h"
-#include "nav/guidance/clearance_spread.h"
+#include "nav/guidance/screw_clearance.h"
 #include "study/simulated_operation.h"
 
 namespace orthonav {

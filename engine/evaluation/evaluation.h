@@ -7,7 +7,6 @@
 #include "engine/case/case.h"
 #include "engine/evaluation/bone_registration.h"
 #include "engine/evaluation/shaft_search.h"
-#include "nav/guidance/clearance_spread.h"
 #include "nav/guidance/screw_clearance.h"
 
 namespace orthonav::engine {

@@ -139,11 +139,11 @@ ScrewInScan placed_screw(const Shaft& shaft, const nav::ScrewPlan& plan,
   out.tip_seen = shaft.tip_seen;
   const double part = 0.5 * cylinder.length_m / shaft.line.half_m;
   out.bow_m = part * part * std::hypot(shaft.line.bow_across_m, shaft.line.bow_athwart_m);
-  out.clearance = nav::least_clearance(bone.surface, cylinder);
-  if (out.clearance) {
-    out.spread =
-        nav::clearance_spread(bone.surface, cylinder, *out.clearance,
-                              with_surface(unsure, cylinder.direction, out.radius_as_planned));
+  const nav::PoseUncertainty of_surface =
+      with_surface(unsure, cylinder.direction, out.radius_as_planned);
+  if (const auto found = nav::screw_clearance(bone.surface, cylinder, &of_surface)) {
+    out.clearance = found->least;
+    out.spread = found->spread;
   }
   if (!out.radius_as_planned && shaft.radius_m < plan.radius_m) {
     nav::ScrewCylinder thick = cylinder;

@@ -7,7 +7,7 @@
 #include "engine/session/calibration_in_use.h"
 #include "engine/session/known_errors.h"
 #include "nav/guidance/changed_screw.h"
-#include "nav/guidance/clearance_spread.h"
+#include "nav/guidance/screw_clearance.h"
 #include "nav/guidance/executed_trajectory.h"
 
 namespace orthonav::engine {

@@ -5,7 +5,7 @@
 #include "engine/report/figures_json.h"
 #include "engine/report/operation_result.h"
 #include "nav/guidance/changed_screw.h"
-#include "nav/guidance/clearance_spread.h"
+#include "nav/guidance/screw_clearance.h"
 
 namespace orthonav::engine {
 namespace {

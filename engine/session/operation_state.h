@@ -12,7 +12,7 @@
 #include "engine/session/landmark.h"
 #include "engine/session/placed_wire.h"
 #include "engine/session/touched_heads.h"
-#include "nav/guidance/clearance_spread.h"
+#include "nav/guidance/screw_clearance.h"
 #include "nav/guidance/executed_trajectory.h"
 #include "nav/guidance/predicted_error.h"
 #include "nav/guidance/rod.h"

@@ -1,6 +1,6 @@
 #include "engine/session/tool_in_vertebra.h"
 
-#include "nav/guidance/clearance_spread.h"
+#include "nav/registration/tre.h"
 
 namespace orthonav::engine {
 namespace {

@@ -1,8 +1,8 @@
 #include "nav/evaluation/tip_accuracy_parts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <Eigen/Core>
 #include <numbers>
 
 #include "base/angle.h"
@@ -10,6 +10,7 @@
 #include "nav/evaluation/board_touches.h"
 #include "nav/evaluation/errors.h"
 #include "nav/evaluation/fixed_point.h"
+#include "nav/geometry/matrix_as.h"
 #include "nav/tracking/pivot.h"
 
 namespace orthonav::nav {
@@ -38,18 +39,9 @@ double length_s(const PointerTrack& track, const std::vector<std::size_t>& sampl
 /// Variance of the tip, summed over the axes: a small rotation w (parent's axes) moves it by w × r.
 double tip_variance_m2(const TrackedPose& pose, Point<Marker> tip) {
   const Vec3 r = pose.value.rotation() * tip.v;
-  // Rows of the derivative of the tip by (translation, rotation vector).
-  const std::array<std::array<double, 6>, 3> rows = {
-      {{1, 0, 0, 0, r.z, -r.y}, {0, 1, 0, -r.z, 0, r.x}, {0, 0, 1, r.y, -r.x, 0}}};
-  double variance_m2 = 0.0;
-  for (const auto& row : rows) {
-    for (std::size_t i = 0; i < 6; ++i) {
-      for (std::size_t k = 0; k < 6; ++k) {
-        variance_m2 += row[i] * pose.covariance[6 * i + k] * row[k];
-      }
-    }
-  }
-  return variance_m2;
+  const auto moves = moves_as<Eigen::Matrix<double, 3, 6>>(r);
+  const auto covariance = matrix_as<Eigen::Matrix<double, 6, 6>>(pose.covariance);
+  return (moves * covariance * moves.transpose()).trace();
 }
 
 std::optional<double> predicted_rms_m(const PointerTrack& track, Point<Marker> tip,

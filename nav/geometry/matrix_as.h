@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "base/tracked.h"
@@ -7,7 +8,7 @@
 #include "base/vec.h"
 
 // Between our values and another library's vectors and matrices, whose types stay out of headers:
-// `m(r, c)` is an entry. And what a small motion does to a pose.
+// `m(r, c)` is an entry. And what a small motion does to a place and to a pose.
 namespace orthonav::nav {
 
 template <class Vector3>
@@ -37,6 +38,51 @@ template <class Matrix3>
   Matrix3 out;
   out << 0, -v.z, v.y, v.z, 0, -v.x, -v.y, v.x, 0;
   return out;
+}
+
+/// A 3×3 or 6×6 matrix that values hold by rows, and back.
+template <class Matrix, std::size_t N>
+[[nodiscard]] Matrix matrix_as(const std::array<double, N>& rows) {
+  constexpr std::size_t kSize = N == 9 ? 3 : 6;
+  static_assert(N == kSize * kSize);
+  Matrix out;
+  for (std::size_t i = 0; i < N; ++i) {
+    out(static_cast<int>(i / kSize), static_cast<int>(i % kSize)) = rows[i];
+  }
+  return out;
+}
+template <std::size_t N, class Matrix>
+[[nodiscard]] std::array<double, N> rows_of(const Matrix& m) {
+  constexpr std::size_t kSize = N == 9 ? 3 : 6;
+  static_assert(N == kSize * kSize);
+  std::array<double, N> out{};
+  for (std::size_t i = 0; i < N; ++i) {
+    out[i] = m(static_cast<int>(i / kSize), static_cast<int>(i % kSize));
+  }
+  return out;
+}
+
+/// Times a small motion (translation, rotation vector) about a centre: by how much a place moves.
+template <class Matrix3x6>
+[[nodiscard]] Matrix3x6 moves_as(Vec3 from_centre_m) {
+  const Vec3 d = from_centre_m;
+  Matrix3x6 out;
+  out << 1, 0, 0, 0, d.z, -d.y,  //
+      0, 1, 0, -d.z, 0, d.x,     //
+      0, 0, 1, d.y, -d.x, 0;
+  return out;
+}
+
+/// dᵀ·C·d for a 3×3 covariance: the variance along d, if that has unit length.
+[[nodiscard]] inline double variance_along(const std::array<double, 9>& covariance,
+                                           Vec3 direction) {
+  double variance = 0.0;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      variance += direction[r] * covariance[static_cast<std::size_t>(3 * r + c)] * direction[c];
+    }
+  }
+  return variance;
 }
 
 /// The pose after a translation and a rotation about its own origin, both in frame A.

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "nav/geometry/matrix_as.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -12,17 +14,6 @@ constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
 double sd_of_variance(double variance) {
   return variance >= 0.0 ? std::sqrt(variance) : kUnknown;  // NaN counts as unknown too
-}
-
-/// SD of the error of a place along a unit direction.
-double sd_along(const std::array<double, 9>& covariance_m2, Vec3 direction) {
-  double variance = 0.0;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      variance += direction[r] * covariance_m2[static_cast<std::size_t>(3 * r + c)] * direction[c];
-    }
-  }
-  return sd_of_variance(variance);
 }
 
 /// A tool's angle in a plane through the planned axis, and its gradient: the axis about which a
@@ -44,14 +35,8 @@ NumberWithSd angle_with_sd(const AngleInPlane& angle, const PoseUncertainty* unc
   if (!uncertainty) {
     return {angle.angle_rad, kUnknown};
   }
-  const auto& c = uncertainty->covariance();
-  double variance = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      variance += angle.by_rotation[i] * c[static_cast<std::size_t>(6 * (i + 3) + j + 3)] *
-                  angle.by_rotation[j];
-    }
-  }
+  // Not a unit direction: its length is how much a turn about it changes the angle.
+  const double variance = variance_along(uncertainty->rotation_covariance(), angle.by_rotation);
   return {angle.angle_rad, sd_of_variance(variance)};
 }
 
@@ -88,8 +73,9 @@ std::optional<AnatomicalDeviation> anatomical_deviation(const ScrewPlan& plan,
   const auto covariance_m2 =
       uncertainty ? uncertainty->covariance_at(tool.point) : std::array<double, 9>{};
   const auto offset = [&](Vec3 direction) {
-    return NumberWithSd{from_entry.dot(direction),
-                        uncertainty ? sd_along(covariance_m2, direction) : kUnknown};
+    return NumberWithSd{
+        from_entry.dot(direction),
+        uncertainty ? sd_of_variance(variance_along(covariance_m2, direction)) : kUnknown};
   };
   const auto angle = [&](Vec3 across) {
     return angle_with_sd(angle_in_plane(tool.direction, directions->inward, across), uncertainty);

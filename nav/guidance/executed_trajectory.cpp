@@ -76,12 +76,7 @@ std::optional<ExecutedTrajectory> TrajectoryAtDepth::mean() const {
     auto point = uncertainty_->covariance_at(out.axis.point);
     add_of_mean(point, point_squares_, points_m_, n);
     out.point_covariance_m2 = point;
-    std::array<double, 9> rotation_rad2{};
-    for (std::size_t r = 0; r < 3; ++r) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        rotation_rad2[3 * r + c] = uncertainty_->covariance()[6 * (r + 3) + c + 3];
-      }
-    }
+    auto rotation_rad2 = uncertainty_->rotation_covariance();
     add_of_mean(rotation_rad2, direction_squares_, first_direction_.cross(directions_), n);
     out.direction_covariance_rad2 = rotation_rad2;
   }

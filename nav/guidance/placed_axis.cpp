@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nav/geometry/matrix_as.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -10,16 +12,6 @@ using Covariance = std::array<double, 9>;
 
 /// A deviation shorter than this has no meaningful direction: micrometres, or microradians.
 constexpr double kNone = 1e-6;
-
-double variance_along(const Covariance& covariance, Vec3 direction) {
-  double variance = 0.0;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      variance += direction[r] * covariance[static_cast<std::size_t>(3 * r + c)] * direction[c];
-    }
-  }
-  return variance;
-}
 
 /// SD of the length of a deviation across `axis`, from the errors across it.
 double sd_of_length(const Covariance& covariance, Vec3 deviation, Vec3 axis) {
@@ -40,16 +32,6 @@ void add_across(Covariance& covariance, Vec3 axis, double variance) {
   }
 }
 
-Covariance rotation_of(const PoseUncertainty& pose) {
-  Covariance rotation_rad2{};
-  for (std::size_t r = 0; r < 3; ++r) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      rotation_rad2[3 * r + c] = pose.covariance()[6 * (r + 3) + c + 3];
-    }
-  }
-  return rotation_rad2;
-}
-
 }  // namespace
 
 PlacedAxis placed_axis(const ScrewPlan& plan, const Axis<Vertebra>& sleeve,
@@ -60,7 +42,7 @@ PlacedAxis placed_axis(const ScrewPlan& plan, const Axis<Vertebra>& sleeve,
   PlacedAxis out;
   out.line = {sleeve.point + way_m * direction, direction};
   const double axis_variance = errors.axis_rad * errors.axis_rad;
-  out.direction_covariance_rad2 = rotation_of(pose);
+  out.direction_covariance_rad2 = pose.rotation_covariance();
   add_across(out.direction_covariance_rad2, direction, axis_variance);
   out.point_covariance_m2 = pose.covariance_at(out.line.point);
   add_across(out.point_covariance_m2, direction,

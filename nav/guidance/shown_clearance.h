@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "nav/guidance/clearance_spread.h"
+#include "nav/guidance/screw_clearance.h"
 
 namespace orthonav::nav {
 

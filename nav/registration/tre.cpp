@@ -5,21 +5,37 @@
 #include <Eigen/Core>
 
 #include "base/random.h"
+#include "nav/geometry/matrix_as.h"
 
 namespace orthonav::nav {
+namespace {
+
+using OfMotion = Eigen::Matrix<double, 6, 6>;
+
+/// An uncertainty with more about the same centre.
+PoseUncertainty sum_of(const PoseUncertainty& uncertainty, const OfMotion& more) {
+  const OfMotion sum = matrix_as<OfMotion>(uncertainty.covariance()) + more;
+  return {uncertainty.centre_m(), rows_of<36>(sum)};
+}
+
+/// More for the position, along each axis.
+PoseUncertainty with_position_variance(const PoseUncertainty& uncertainty, double variance_m2) {
+  OfMotion more = OfMotion::Zero();
+  more.diagonal().head<3>().setConstant(variance_m2);
+  return sum_of(uncertainty, more);
+}
+
+}  // namespace
 
 std::array<double, 9> PoseUncertainty::covariance_at(Point<Vertebra> target) const {
-  const Eigen::Matrix<double, 6, 6> covariance =
-      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(covariance_.data());
-  const Vec3 d = target.v - centre_m_;
-  Eigen::Matrix<double, 3, 6> moves =
-      Eigen::Matrix<double, 3, 6>::Zero();  // translation + rotation × d
-  moves.leftCols<3>().setIdentity();
-  moves.rightCols<3>() << 0, d.z, -d.y, -d.z, 0, d.x, d.y, -d.x, 0;
-  std::array<double, 9> out{};
-  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(out.data()) =
-      moves * covariance * moves.transpose();
-  return out;
+  const auto moves = moves_as<Eigen::Matrix<double, 3, 6>>(target.v - centre_m_);
+  const Eigen::Matrix3d there = moves * matrix_as<OfMotion>(covariance_) * moves.transpose();
+  return rows_of<9>(there);
+}
+
+std::array<double, 9> PoseUncertainty::rotation_covariance() const {
+  const OfMotion all = matrix_as<OfMotion>(covariance_);
+  return rows_of<9>(all.bottomRightCorner<3, 3>());
 }
 
 double PoseUncertainty::predicted_tre_m(Point<Vertebra> target) const {
@@ -45,41 +61,38 @@ double PoseUncertainty::tre_quantile_m(Point<Vertebra> target, double probabilit
 
 double CommonErrors::sd_m() const { return std::hypot(tip_m, cameras_m, map_m); }
 
-namespace {
-PoseUncertainty with_position_variance(const PoseUncertainty& uncertainty, double variance_m2) {
-  auto covariance = uncertainty.covariance();
-  for (std::size_t k = 0; k < 3; ++k) {
-    covariance[7 * k] += variance_m2;
-  }
-  return {uncertainty.centre_m(), covariance};
-}
-}  // namespace
-
 PoseUncertainty with_common(const PoseUncertainty& own, const CommonErrors& common) {
   return with_position_variance(own, common.sd_m() * common.sd_m());
 }
 PoseUncertainty with_turn(const PoseUncertainty& own, Point<Vertebra> about, Vec3 axis,
                           double sd_rad) {
-  // A rotation w about a place p is w about the centre c plus the shift w x (c - p): two columns,
-  // one for each direction across.
-  auto covariance = own.covariance();
+  // A rotation w about a place p is w about the centre c plus the shift w x (c - p): one column for
+  // each direction across.
   const Vec3 any = std::abs(axis[0]) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   const Vec3 across = axis.cross(any).normalized();
+  OfMotion more = OfMotion::Zero();
   for (const Vec3 rotation : {across, axis.cross(across)}) {
-    const Vec3 translation = rotation.cross(own.centre_m() - about.v);
-    const std::array<double, 6> column = {translation[0], translation[1], translation[2],
-                                          rotation[0],    rotation[1],    rotation[2]};
-    for (std::size_t r = 0; r < 6; ++r) {
-      for (std::size_t c = 0; c < 6; ++c) {
-        covariance[6 * r + c] += sd_rad * sd_rad * column[r] * column[c];
-      }
-    }
+    Eigen::Matrix<double, 6, 1> column;
+    column << vector_as<Eigen::Vector3d>(rotation.cross(own.centre_m() - about.v)),
+        vector_as<Eigen::Vector3d>(rotation);
+    more += sd_rad * sd_rad * column * column.transpose();
   }
-  return {own.centre_m(), covariance};
+  return sum_of(own, more);
 }
 
 PoseUncertainty without_common(const PoseUncertainty& all, const CommonErrors& common) {
   return with_position_variance(all, -common.sd_m() * common.sd_m());
+}
+
+PoseUncertainty with_tool(const PoseUncertainty& bone,
+                          const Transform<Vertebra, World>& vertebra_from_world,
+                          Point<Vertebra> origin_in_vertebra, const PoseCovariance& tool_in_world) {
+  // About the bone's centre, a motion (t, w) about the tool's origin is (R t + R w × d, R w).
+  const auto r = matrix_as<Eigen::Matrix3d>(vertebra_from_world.rotation());
+  const auto by_d = skew_as<Eigen::Matrix3d>(bone.centre_m() - origin_in_vertebra.v);
+  OfMotion moves;
+  moves << r, -by_d * r, Eigen::Matrix3d::Zero(), r;
+  return sum_of(bone, moves * matrix_as<OfMotion>(tool_in_world) * moves.transpose());
 }
 
 }  // namespace orthonav::nav

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "base/tracked.h"
 #include "base/transform.h"
 
 namespace orthonav::nav {
@@ -22,6 +23,8 @@ class PoseUncertainty {
   [[nodiscard]] double predicted_tre_m(Point<Vertebra> target) const;
   /// Covariance of the error at a target, 3x3 by rows, m², in the model's frame.
   [[nodiscard]] std::array<double, 9> covariance_at(Point<Vertebra> target) const;
+  /// Covariance of the rotation vector alone, 3x3 by rows, rad².
+  [[nodiscard]] std::array<double, 9> rotation_covariance() const;
   /// The error at a target is smaller with this probability (the distribution of a weighted sum of
   /// squares by Satterthwaite 1946, its quantile by Wilson & Hilferty 1931).
   [[nodiscard]] double tre_quantile_m(Point<Vertebra> target, double probability) const;
@@ -51,5 +54,14 @@ struct CommonErrors {
                                         Vec3 axis, double sd_rad);
 [[nodiscard]] PoseUncertainty without_common(const PoseUncertainty& all,
                                              const CommonErrors& common);
+/// The uncertainty of a tracked tool's pose relative to the bone, from the uncertainties of both
+/// poses. They are taken as independent: errors that strokes and tool share (the cameras, the map)
+/// must not be in `bone`, or they are counted although they cancel. `origin_in_vertebra` is the
+/// origin of the tracked marker, about which the rotations in its covariance (World's axes) are
+/// taken.
+[[nodiscard]] PoseUncertainty with_tool(const PoseUncertainty& bone,
+                                        const Transform<Vertebra, World>& vertebra_from_world,
+                                        Point<Vertebra> origin_in_vertebra,
+                                        const PoseCovariance& tool_in_world);
 
 }  // namespace orthonav::nav

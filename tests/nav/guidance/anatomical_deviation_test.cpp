@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "nav/guidance/clearance_spread.h"
-
 namespace orthonav::nav::anatomical_deviation_test {
 namespace {
 

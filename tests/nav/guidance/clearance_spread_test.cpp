@@ -1,10 +1,9 @@
-#include "nav/guidance/clearance_spread.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/random.h"
+#include "nav/guidance/screw_clearance.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/anatomy.h"
 #include "tests/support/mesh_builder.h"
@@ -41,7 +40,7 @@ const Vec3 kMiddle{0.0, -0.0055, 0.0};
 
 ClearanceSpread spread_of(const SurfaceIndex& bone, const ScrewCylinder& screw,
                           const PoseUncertainty& pose) {
-  return *clearance_spread(bone, screw, *least_clearance(bone, screw), pose);
+  return *screw_clearance(bone, screw, &pose)->spread;
 }
 
 TEST(ClearanceSpread, OfAShiftBesideOneWallIsTheNormalQuantile) {
@@ -95,11 +94,13 @@ TEST(ClearanceSpread, GradesAreAsLikelyAsTheNormalDistributionSays) {
 }
 
 TEST(ClearanceSpread, IsAbsentWhereTheCovarianceIsNoNumber) {
-  const auto least = *least_clearance(one_wall(), kScrew);
-  EXPECT_FALSE(
-      clearance_spread(one_wall(), kScrew, least, with_sds(kMiddle, INFINITY, 0.0)).has_value());
-  EXPECT_FALSE(
-      clearance_spread(one_wall(), kScrew, least, with_sds({NAN, 0, 0}, 0.001, 0.0)).has_value());
+  const auto unknown = with_sds(kMiddle, INFINITY, 0.0);
+  const auto nowhere = with_sds({NAN, 0, 0}, 0.001, 0.0);
+  for (const PoseUncertainty* pose : {&unknown, &nowhere}) {
+    const auto found = screw_clearance(one_wall(), kScrew, pose);
+    EXPECT_NEAR(found->least.clearance_m, 0.007, 1e-6);
+    EXPECT_FALSE(found->spread.has_value());
+  }
 }
 
 TEST(ClearanceSpread, AllocatesNothing) {
@@ -109,29 +110,6 @@ TEST(ClearanceSpread, AllocatesNothing) {
   const auto found = screw_clearance(one_wall(), kScrew, &pose);
   EXPECT_EQ(test::allocation_count() - before, 0u);
   EXPECT_TRUE(found && found->spread);
-}
-
-TEST(WithTool, MovesTheToolsCovarianceToTheBonesCentre) {
-  // The tool turns by 0.01 rad about World's z at a marker 0.2 m along World's x; World's x is the
-  // vertebra's y.
-  const Transform<Vertebra, World> vertebra_from_world{
-      rotation_from_vector({0, 0, std::acos(-1.0) / 2}), {0.1, 0.2, 0.3}};
-  const Point<World> marker{{0.2, 0, 0}};
-  PoseCovariance tool{};
-  tool[35] = 1e-4;
-  tool[0] = 4e-8;
-  const PoseUncertainty bone = with_sds({0.1, 0.2, 0.3}, 0.0, 0.0);  // World's origin
-  const PoseUncertainty both =
-      with_tool(bone, vertebra_from_world, vertebra_from_world * marker, tool);
-  // At World's origin: 0.2 m × 0.01 rad across, World's y, that is the vertebra's -x.
-  const auto at_origin = both.covariance_at({{0.1, 0.2, 0.3}});
-  EXPECT_NEAR(at_origin[0], 0.04 * 1e-4, 1e-12);
-  EXPECT_NEAR(at_origin[4], 4e-8, 1e-12);
-  EXPECT_NEAR(at_origin[8], 0.0, 1e-12);
-  // At the marker the rotation has no effect.
-  const auto at_marker = both.covariance_at(vertebra_from_world * marker);
-  EXPECT_NEAR(at_marker[0], 0.0, 1e-12);
-  EXPECT_NEAR(at_marker[4], 4e-8, 1e-12);
 }
 
 /// How often the truth lies above the bound: screws of real plans are moved by random motions from

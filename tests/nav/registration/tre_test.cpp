@@ -53,5 +53,28 @@ TEST(PoseUncertainty, ATurnAboutAPlaceMovesWhatLiesBesideIt) {
       << "beside it only along it: it does not turn about the axis itself";
 }
 
+TEST(WithTool, MovesTheToolsCovarianceToTheBonesCentre) {
+  // The tool turns by 0.01 rad about World's z at a marker 0.2 m along World's x; World's x is the
+  // vertebra's y.
+  const Transform<Vertebra, World> vertebra_from_world{
+      rotation_from_vector({0, 0, std::acos(-1.0) / 2}), {0.1, 0.2, 0.3}};
+  const Point<World> marker{{0.2, 0, 0}};
+  PoseCovariance tool{};
+  tool[35] = 1e-4;
+  tool[0] = 4e-8;
+  const PoseUncertainty bone({0.1, 0.2, 0.3}, {});  // World's origin
+  const PoseUncertainty both =
+      with_tool(bone, vertebra_from_world, vertebra_from_world * marker, tool);
+  // At World's origin: 0.2 m × 0.01 rad across, World's y, that is the vertebra's -x.
+  const auto at_origin = both.covariance_at({{0.1, 0.2, 0.3}});
+  EXPECT_NEAR(at_origin[0], 0.04 * 1e-4, 1e-12);
+  EXPECT_NEAR(at_origin[4], 4e-8, 1e-12);
+  EXPECT_NEAR(at_origin[8], 0.0, 1e-12);
+  // At the marker the rotation has no effect.
+  const auto at_marker = both.covariance_at(vertebra_from_world * marker);
+  EXPECT_NEAR(at_marker[0], 0.0, 1e-12);
+  EXPECT_NEAR(at_marker[4], 4e-8, 1e-12);
+}
+
 }  // namespace
 }  // namespace orthonav::nav
