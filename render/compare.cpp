@@ -23,7 +23,7 @@ std::string at(int x_px, int y_px) {
 
 }  // namespace
 
-ColourDifference compare_colour(const RgbaImage& expected, const RgbaImage& actual, int tolerance) {
+ColourDifference compare_colour(const RgbaImage& expected, const RgbaImage& actual) {
   ColourDifference difference;
   difference.same_size = comparable(expected, actual);
   if (!difference.same_size) {
@@ -35,7 +35,7 @@ ColourDifference compare_colour(const RgbaImage& expected, const RgbaImage& actu
     for (std::size_t c = 0; c < 4; ++c) {
       worst = std::max(worst, channel_difference(expected, actual, 4 * pixel + c));
     }
-    if (worst > tolerance) {
+    if (worst > kColourTolerance) {
       ++difference.outside;
     }
     if (worst <= difference.worst) {
@@ -94,7 +94,8 @@ std::string LabelDifference::text() const {
          ": label " + std::to_string(expected) + " became " + std::to_string(actual);
 }
 
-RgbaImage difference_image(const RgbaImage& expected, const RgbaImage& actual, int gain) {
+RgbaImage difference_image(const RgbaImage& expected, const RgbaImage& actual) {
+  constexpr int kGain = 16;
   RgbaImage image;
   if (!comparable(expected, actual)) {
     return image;
@@ -106,7 +107,7 @@ RgbaImage difference_image(const RgbaImage& expected, const RgbaImage& actual, i
     if (i % 4 == 3) {
       continue;
     }
-    const int scaled = gain * channel_difference(expected, actual, i);
+    const int scaled = kGain * channel_difference(expected, actual, i);
     image.pixels[i] = static_cast<std::uint8_t>(std::min(scaled, 255));
   }
   return image;

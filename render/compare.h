@@ -29,8 +29,7 @@ struct ColourDifference {
   /// `alike`, or one line with the count and the worst pixel.
   [[nodiscard]] std::string text() const;
 };
-[[nodiscard]] ColourDifference compare_colour(const RgbaImage& expected, const RgbaImage& actual,
-                                              int tolerance = kColourTolerance);
+[[nodiscard]] ColourDifference compare_colour(const RgbaImage& expected, const RgbaImage& actual);
 
 struct LabelDifference {
   bool same_size = true;
@@ -45,9 +44,8 @@ struct LabelDifference {
 /// Labels are integers: any difference counts.
 [[nodiscard]] LabelDifference compare_labels(const LabelImage& expected, const LabelImage& actual);
 
-/// Differences of the channels times `gain`, for people to look at. Empty if the sizes differ.
-[[nodiscard]] RgbaImage difference_image(const RgbaImage& expected, const RgbaImage& actual,
-                                         int gain = 16);
+/// Differences of the channels times 16, for people to look at. Empty if the sizes differ.
+[[nodiscard]] RgbaImage difference_image(const RgbaImage& expected, const RgbaImage& actual);
 
 /// Where the pixels of a label lie.
 struct LabelExtent {

@@ -202,9 +202,9 @@ void set_ring(std::vector<Float3>& ring, Float3 centre, Float3 normal, float rad
   }
 }
 
-std::vector<Float3> make_ring(Float3 centre, Float3 normal, float radius_m, int points) {
+std::vector<Float3> make_ring(Float3 centre, Float3 normal, float radius_m) {
   std::vector<Float3> ring;
-  set_ring(ring, centre, normal, radius_m, points);
+  set_ring(ring, centre, normal, radius_m);
   return ring;
 }
 

@@ -31,8 +31,7 @@ namespace orthonav::render {
 /// The points of a circle, to be drawn as a closed line; replaces the content of the list.
 void set_ring(std::vector<Float3>& ring, Float3 centre, Float3 normal, float radius_m,
               int points = 48);
-[[nodiscard]] std::vector<Float3> make_ring(Float3 centre, Float3 normal, float radius_m,
-                                            int points = 48);
+[[nodiscard]] std::vector<Float3> make_ring(Float3 centre, Float3 normal, float radius_m);
 
 /// The matrix that scales by `scale` and then moves to `position`.
 [[nodiscard]] Matrix4 placed_at(Float3 position, float scale = 1.0f);

@@ -169,8 +169,7 @@ Result<KeyDevice> describe_evdev(const std::string& path) {
   if (Status started = keys.start(); !started) {
     return started.error();
   }
-  return KeyDevice{path, keys.name(), is_full_keyboard(keys.device()),
-                   has_one_of(keys.device(), clicker_keys())};
+  return KeyDevice{path, keys.name(), is_full_keyboard(keys.device())};
 }
 
 }  // namespace orthonav::desktop

@@ -59,7 +59,6 @@ struct KeyDevice {
   std::string path;
   std::string name;
   bool full_keyboard = false;
-  bool has_clicker_key = false;
 };
 [[nodiscard]] Result<KeyDevice> describe_evdev(const std::string& path);
 

@@ -26,9 +26,9 @@ namespace orthonav::engine {
 // Values in the formats of what is said.
 
 /// A length for a `%s`: "1.2 mm", "-- mm" if it is not finite.
-[[nodiscard]] inline std::string format_mm(double length_m, int decimals = 1) {
+[[nodiscard]] inline std::string format_mm(double length_m) {
   std::string text;  // shorter than what a string allocates for
-  append_mm(text, length_m, decimals);
+  append_mm(text, length_m);
   return text;
 }
 
