@@ -7,8 +7,8 @@
 #include "engine/session/calibration_in_use.h"
 #include "engine/session/known_errors.h"
 #include "nav/guidance/changed_screw.h"
-#include "nav/guidance/screw_clearance.h"
 #include "nav/guidance/executed_trajectory.h"
+#include "nav/guidance/screw_clearance.h"
 
 namespace orthonav::engine {
 
