@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <map>
 #include <set>
 
 #include "hal/api/forwarding_headset.h"
@@ -230,17 +232,19 @@ std::size_t depth_cameras_of(const std::string& name) {
   return with_depth.count(name) == 0 ? 0 : 2;
 }
 
-/// Records a headset to its end and opens what was recorded.
-std::unique_ptr<Headset> open_replayed(std::unique_ptr<Headset> live) {
-  auto folder = std::make_unique<TemporaryFolder>();
-  {
-    auto recorder = replay::RecordingHeadset::create(std::move(live), *folder / "session");
+/// Opens what was recorded of a headset to its end, which is recorded once for all tests.
+std::unique_ptr<Headset> open_replayed(const std::string& name,
+                                       const std::function<std::unique_ptr<Headset>()>& open) {
+  static std::map<std::string, TemporaryFolder> recordings;
+  const auto [recording, is_new] = recordings.try_emplace(name);
+  const auto session = recording->second / "session";
+  if (is_new) {
+    auto recorder = replay::RecordingHeadset::create(open(), session);
     EXPECT_TRUE(recorder.ok());
     play(**recorder);
     EXPECT_TRUE((*recorder)->close().ok());
   }
-  auto headset = checked(open_headset("replay:" + (*folder / "session").string()));
-  return keeping(std::move(folder), std::move(headset));
+  return checked(open_headset("replay:" + session.string()));
 }
 
 }  // namespace
@@ -253,16 +257,17 @@ std::vector<DeviceCase> device_cases() {
       {"recorder", open_recorder},
       {"joined", open_joined},
       {"openxr", open_openxr},
-      {"replay", [] { return open_replayed(open_fake()); }},
+      {"replay", [] { return open_replayed("fake", open_fake); }},
       {"stream_recorder", open_stream_recorder, false},
       {"sim", open_sim, false},
       {"sim_depth", open_sim_with_depth, false},
-      {"replayed_sim", [] { return open_replayed(open_sim()); }, false},
+      {"replayed_sim", [] { return open_replayed("sim", open_sim); }, false},
       {"hl2ss_raw", [] { return open_served_sim("raw"); }, false},
       {"hl2ss_h264", [] { return open_served_sim("h264"); }, false},
-      {"replayed_hl2ss", [] { return open_replayed(open_served_sim("raw")); }, false},
+      {"replayed_hl2ss",
+       [] { return open_replayed("hl2ss", [] { return open_served_sim("raw"); }); }, false},
       {"surgeon", open_surgeon, true, false},
-      {"replayed_surgeon", [] { return open_replayed(open_surgeon()); }, true, false}};
+      {"replayed_surgeon", [] { return open_replayed("surgeon", open_surgeon); }, true, false}};
   for (DeviceCase& device : cases) {
     device.depth_cameras = depth_cameras_of(device.name);
   }

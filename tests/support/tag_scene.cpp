@@ -9,7 +9,6 @@
 namespace orthonav::test {
 namespace {
 
-constexpr double kBackground = 110.0;
 constexpr int kRaysASide = 8;
 
 struct Camera {
@@ -144,11 +143,11 @@ GreyImage picture(const CameraModel& camera, const Transform<Rig, Marker>& rig_f
     draw({camera, rig_from_camera}, tag, sums, covered);
   }
   constexpr double kRays = kRaysASide * kRaysASide;
-  std::fill(image.pixels.begin(), image.pixels.end(), static_cast<std::uint8_t>(kBackground));
+  std::fill(image.pixels.begin(), image.pixels.end(), kSceneGrey);
   for (std::size_t i = 0; i < sums.size(); ++i) {
     if (covered[i] > 0.0) {
       image.pixels[i] = static_cast<std::uint8_t>(
-          std::lround((sums[i] + kBackground * std::max(0.0, kRays - covered[i])) /
+          std::lround((sums[i] + kSceneGrey * std::max(0.0, kRays - covered[i])) /
                       std::max(kRays, covered[i])));
     }
   }

@@ -16,6 +16,9 @@ struct PlacedTag {
   Transform<Rig, Marker> rig_from_marker;
 };
 
+/// What is seen beside the tags.
+constexpr std::uint8_t kSceneGrey = 110;
+
 /// Two ideal cameras like a HoloLens 2's (on their side, 0.1 m apart), and their pictures of tags
 /// on mid grey, 64 rays a pixel, blurred like a lens does. No OpenCV, no simulator: a second
 /// opinion on both.

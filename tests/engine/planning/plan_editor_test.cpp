@@ -19,10 +19,14 @@ using ::testing::HasSubstr;
 constexpr double kMm = 1e-3;
 constexpr double kTiny_m = 1e-9;
 
-/// An editor of two levels of the phantom.
+/// An editor of two levels of the phantom: a copy for each test, since preparing the bones takes
+/// longest.
 PlanEditor edited() {
-  ModelCache models;
-  return PlanEditor::create(phantom({"L4", "L5"}), ScrewSizes::built_in(), models).value();
+  static const PlanEditor kPrepared = [] {
+    ModelCache models;
+    return PlanEditor::create(phantom({"L4", "L5"}), ScrewSizes::built_in(), models).value();
+  }();
+  return kPrepared;
 }
 
 void expect_same(const nav::ScrewPlan& a, const nav::ScrewPlan& b) {

@@ -14,11 +14,15 @@ using ::testing::HasSubstr;
 constexpr double kAspect = 1.5;
 constexpr double kMm = 1e-3;
 
+/// A copy for each test: preparing the bones takes longest.
 engine::PlanEditor edited() {
-  engine::ModelCache models;
-  return engine::PlanEditor::create(engine::phantom({"L4", "L5"}), engine::ScrewSizes::built_in(),
-                                    models)
-      .value();
+  static const engine::PlanEditor kPrepared = [] {
+    engine::ModelCache models;
+    return engine::PlanEditor::create(engine::phantom({"L4", "L5"}), engine::ScrewSizes::built_in(),
+                                      models)
+        .value();
+  }();
+  return kPrepared;
 }
 
 /// The upper left pane is looked at; a place in its slice in the mouse's coordinates.
