@@ -105,14 +105,14 @@ function(orthonav_test_headers target)
     <string> <thread> <variant> <vector>)
 endfunction()
 
-# orthonav_test(NAME [IN folder] [SHARDS N] [COST n] [COMPUTES] libs...) makes one test program of every
-# .cpp in the folder, which is the calling one unless it is named. COMPUTES: the tests themselves
+# orthonav_test(NAME [IN folder] [SHARDS N | TOGETHER suite] [COST n] [COMPUTES] libs...) makes one test program
+# of every .cpp in the folder, which is the calling one unless it is named. COMPUTES: the tests themselves
 # compute so much that they are optimized; they then can't share the precompiled header, which is
 # built without optimization. Each test is a process of its own; with SHARDS N all run in N
-# processes, for tests that share what is slow to make. Tests of greater COST start earlier, so that
-# none of the long ones is left for the end.
+# processes, and with TOGETHER one suite runs in one, for tests that share what is slow to make. Tests of
+# greater COST start earlier, so that none of the long ones is left for the end.
 function(orthonav_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 test "COMPUTES" "IN;SHARDS;COST" "")
+  cmake_parse_arguments(PARSE_ARGV 1 test "COMPUTES" "IN;SHARDS;COST;TOGETHER" "")
   find_package(GTest REQUIRED)
   include(GoogleTest)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${test_IN}/*.cpp")
@@ -156,6 +156,12 @@ function(orthonav_test name)
   if(test_COST)
     list(APPEND properties COST ${test_COST})
   endif()
-  gtest_discover_tests(test_${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
+  set(others "")
+  if(test_TOGETHER)
+    add_test(NAME ${name}.${test_TOGETHER} COMMAND test_${name} --gtest_brief=1 "--gtest_filter=${test_TOGETHER}.*")
+    set_tests_properties(${name}.${test_TOGETHER} PROPERTIES ${properties})
+    set(others TEST_FILTER "-${test_TOGETHER}.*")
+  endif()
+  gtest_discover_tests(test_${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}." ${others}
                        PROPERTIES ${properties})
 endfunction()

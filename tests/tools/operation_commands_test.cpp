@@ -141,17 +141,6 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
   EXPECT_NEAR(registration["common_sd_mm"]["cameras"].get<double>(), 0.46, 0.005);
 }
 
-TEST(RunCommand, ShowsTheBestSetUpUnlessAnotherIsNamed) {
-  const auto relative_to_reference = [](const std::vector<std::string>& named) {
-    std::vector<std::string> run = {"run", "--levels", "L5", "--frames", "2", "--json"};
-    run.insert(run.end(), named.begin(), named.end());
-    return json::parse(orthonav(run).out).contains("patient_reference");
-  };
-  EXPECT_TRUE(relative_to_reference({}));
-  EXPECT_FALSE(relative_to_reference({"--no-reference"}));
-  EXPECT_FALSE(relative_to_reference({"--as-published"}));
-}
-
 TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {
   const ScratchFolder folder;
   const std::string recording = folder.file("recording");
