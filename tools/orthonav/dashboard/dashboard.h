@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/App.hpp>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -8,6 +7,10 @@
 
 #include "engine/live/assembled_operation.h"
 #include "tools/orthonav/dashboard/status_changes.h"
+
+namespace CLI {
+class App;
+}
 
 namespace orthonav::tools {
 

@@ -37,13 +37,6 @@ class UnblockedSink : public spdlog::sinks::base_sink<std::mutex> {
 
 }  // namespace
 
-void EventLogArguments::add_to(CLI::App& command) {
-  command.add_option("--log", file, "adds what happens to this file, line by line")
-      ->type_name("FILE");
-  command.add_flag("--verbose", verbose,
-                   "also which tool was lost and found, and all of it on standard error");
-}
-
 EventLog::EventLog() = default;
 EventLog::~EventLog() { tell_losses(); }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/App.hpp>
 #include <memory>
 #include <string>
 
@@ -18,8 +17,6 @@ namespace orthonav::tools {
 struct EventLogArguments {
   std::string file;
   bool verbose = false;
-
-  void add_to(CLI::App& command);
 };
 
 /// A log for people: steps, messages to the surgeon and failures of the headset, one line each with

@@ -7,7 +7,11 @@ namespace orthonav::tools {
 void OnlookerArguments::add_to(CLI::App& command) {
   igtl.add_to(command);
   web.add_to(command);
-  log.add_to(command);
+  // Here, so that event_log.cpp reads the headers of spdlog alone, not those of CLI11 as well.
+  command.add_option("--log", log.file, "adds what happens to this file, line by line")
+      ->type_name("FILE");
+  command.add_flag("--verbose", log.verbose,
+                   "also which tool was lost and found, and all of it on standard error");
 }
 
 Status Onlookers::open(const OnlookerArguments& arguments) {

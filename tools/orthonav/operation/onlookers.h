@@ -1,5 +1,6 @@
 #pragma once
 
+#include <CLI/App.hpp>
 #include <memory>
 
 #include "tools/orthonav/dashboard/camera_view.h"
