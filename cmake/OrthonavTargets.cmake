@@ -50,7 +50,7 @@ function(orthonav_library name)
     orthonav_cold(orthonav_${name})
     orthonav_precompiled(orthonav_${name} COLD)
   elseif(ARG_EIGEN)
-    # GCC takes the longer for an operator of Eigen's the more of its types a unit has met: nav takes a fifth less
+    # GCC takes the longer for an operator of Eigen's the more of its types a unit has met: nav takes a tenth less
     # in units of eight sources.
     set_target_properties(orthonav_${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 8)
     orthonav_precompiled(orthonav_${name} EIGEN <Eigen/Dense>)
