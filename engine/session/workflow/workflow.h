@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/translation.h"
 #include "engine/session/shown_status.h"
 
 namespace orthonav::engine {
@@ -53,6 +54,47 @@ enum class Event : std::uint8_t {
   kReferenceMoved,    ///< references moved against each other: positions relative to them are void
 };
 inline constexpr std::size_t kEventCount = 38;
+/// In the same order. Spoken words are not translated.
+inline constexpr std::array<std::string_view, kEventCount> kEventNames = {
+    translatable("press"),
+    translatable("release"),
+    translatable("click"),
+    translatable("double click"),
+    translatable("hold"),
+    "\"start\"",
+    "\"save\"",
+    "\"delete\"",
+    "\"accept\"",
+    "\"reject\"",
+    "\"next\"",
+    "\"done\"",
+    "\"move rod\"",
+    "\"twin\"",
+    "\"numbers\"",
+    "\"drill\"",
+    translatable("change of the screw"),
+    translatable("registered"),
+    translatable("registration refused"),
+    translatable("registration restored"),
+    translatable("acceptance restored"),
+    translatable("landmark moved"),
+    translatable("bone unchecked"),
+    translatable("screw redone"),
+    translatable("no other entry"),
+    translatable("another screw"),
+    translatable("another level"),
+    translatable("no screw left"),
+    translatable("no rod planned"),
+    translatable("another side"),
+    translatable("no side left"),
+    translatable("tracking lost"),
+    translatable("pose stale"),
+    translatable("tracking regained"),
+    translatable("map moved"),
+    translatable("reference hidden"),
+    translatable("reference seen"),
+    translatable("reference moved"),
+};
 
 /// What the session does about an event. The first is the default of cells without a rule.
 enum class Action : std::uint8_t {
@@ -104,6 +146,54 @@ enum class Action : std::uint8_t {
   kForgetMap,
 };
 inline constexpr std::size_t kActionCount = static_cast<std::size_t>(Action::kForgetMap) + 1;
+/// In the same order.
+inline constexpr std::array<std::string_view, kActionCount> kActionNames = {
+    "refuse",
+    "ignore",
+    "explain not shown",
+    "explain checks",
+    "explain landmark",
+    "explain wire",
+    "explain no other entry",
+    "begin level",
+    "start sampling",
+    "stop sampling",
+    "save region",
+    "drop region",
+    "register",
+    "show registration",
+    "record check point",
+    "drop check point",
+    "accept",
+    "clear level",
+    "record landmark",
+    "drop landmark",
+    "expect landmark",
+    "verify again",
+    "correct guide",
+    "select screw",
+    "expect wire",
+    "record wire",
+    "keep wire",
+    "judge redo",
+    "finish screw",
+    "begin rod",
+    "begin touch",
+    "end touch",
+    "drop touch",
+    "record head",
+    "drop head",
+    "finish rod",
+    "move rod",
+    "show or hide twin",
+    "show or hide numbers",
+    "watch drill",
+    "change screw",
+    "take breach",
+    "hide guidance",
+    "show guidance",
+    "forget map",
+};
 
 /// Whether it settles what was said last: a message to the surgeon stays until something else is
 /// done, and so does a question.
@@ -142,6 +232,14 @@ enum class State : std::uint8_t {
   kWireBeyondLimit,    ///< and neither kept nor redone yet
 };
 inline constexpr std::size_t kStateCount = 6;
+/// In the same order.
+inline constexpr std::array<std::string_view, kStateCount> kStateNames = {
+    "breach pending",     "not shown",        "checks passed",
+    "correction offered", "landmark touched", "wire beyond limit",
+};
+// A missing name at the end of an array would be empty.
+static_assert(!kEventNames.back().empty() && !kActionNames.back().empty() &&
+              !kStateNames.back().empty());
 
 /// The answer of every step that has no rule of its own for the event.
 struct UsualRule {
@@ -484,8 +582,14 @@ inline constexpr Workflow kWorkflowByEye = workflow_of(MethodSteps::none());
   return answer(verification == Verification::kByEye ? kWorkflowByEye : kWorkflow, step, event);
 }
 
-[[nodiscard]] std::string_view name_of(State state);
-[[nodiscard]] std::string_view name_of(Event event);
-[[nodiscard]] std::string_view name_of(Action action);
+[[nodiscard]] constexpr std::string_view name_of(State state) {
+  return kStateNames[static_cast<std::size_t>(state)];
+}
+[[nodiscard]] constexpr std::string_view name_of(Event event) {
+  return kEventNames[static_cast<std::size_t>(event)];
+}
+[[nodiscard]] constexpr std::string_view name_of(Action action) {
+  return kActionNames[static_cast<std::size_t>(action)];
+}
 
 }  // namespace orthonav::engine
