@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -28,6 +29,11 @@ enum class HologramKind : std::uint8_t {
   kCheckPoint,
   kNumbers,
 };
+/// In the same order, as the preview lists them.
+inline constexpr auto kHologramNames = std::to_array<const char*>(
+    {"sampled path", "vertebra", "entry points", "planned trajectory", "deviation triangle",
+     "angle readout", "target cross", "virtual twin", "depth", "rod template", "status line",
+     "check points", "numbers"});
 
 /// What a person wearing the display can read off one hologram: text and a few world positions.
 struct ShownHologram {

@@ -1,35 +1,15 @@
 #pragma once
 
-#include <array>
 #include <bitset>
 
+#include "engine/session/shown_frame.h"
 #include "render/scene.h"
 
 namespace orthonav::preview {
 
-/// A hologram by its number in docs ("H5" is 5) and its name.
-struct HologramName {
-  unsigned number;
-  const char* name;
-};
-inline constexpr unsigned kLastHologram = 13;
-inline constexpr std::array<HologramName, kLastHologram> kHolograms = {{
-    {1, "sampled path"},
-    {2, "vertebra"},
-    {3, "entry points"},
-    {4, "planned trajectory"},
-    {5, "deviation triangle"},
-    {6, "angle readout"},
-    {7, "target cross"},
-    {8, "virtual twin"},
-    {9, "depth"},
-    {10, "rod template"},
-    {11, "status line"},
-    {12, "check points"},
-    {13, "numbers"},
-}};
+inline constexpr unsigned kLastHologram = engine::kHologramNames.size();
 
-/// Which holograms are shown; all at first.
+/// Which holograms are shown, by their numbers in docs ("H5" is 5); all at first.
 class HologramFilter {
  public:
   HologramFilter() { shown_.set(); }

@@ -111,15 +111,15 @@ void draw_time(PreviewModel& model, const Moment& moment, const PanelFacts& fact
 
 void draw_holograms(PreviewModel& model) {
   HologramFilter& filter = model.look().holograms;
-  for (const HologramName& hologram : kHolograms) {
-    bool shown = filter.shows(hologram.number);
+  for (unsigned number = 1; number <= kLastHologram; ++number) {
+    bool shown = filter.shows(number);
     char name[48];
-    std::snprintf(name, sizeof name, "H%u %s", hologram.number, hologram.name);
-    if (hologram.number % 2 == 0) {
+    std::snprintf(name, sizeof name, "H%u %s", number, engine::kHologramNames[number - 1]);
+    if (number % 2 == 0) {
       ImGui::SameLine(190.0f);
     }
     if (ImGui::Checkbox(name, &shown)) {
-      filter.show(hologram.number, shown);
+      filter.show(number, shown);
     }
   }
 }

@@ -24,24 +24,9 @@ bool is_small(const render::MeshItem& mesh) {
 }
 
 bool names_something(Label label) {
-  switch (kind_of(label)) {
-    case HologramKind::kEntry:
-    case HologramKind::kRod:
-    case HologramKind::kCheckPoint:
-      return true;
-    case HologramKind::kPath:
-    case HologramKind::kVertebra:
-    case HologramKind::kTrajectory:
-    case HologramKind::kTriangle:
-    case HologramKind::kAngle:
-    case HologramKind::kCross:
-    case HologramKind::kTwin:
-    case HologramKind::kDepth:
-    case HologramKind::kStatus:
-    case HologramKind::kNumbers:
-      return false;
-  }
-  return false;
+  const HologramKind kind = kind_of(label);
+  return kind == HologramKind::kEntry || kind == HologramKind::kRod ||
+         kind == HologramKind::kCheckPoint;
 }
 
 class Finder {

@@ -69,16 +69,9 @@ LabelRank rank_of(const TextItem& text) {
     case HologramKind::kDepth:
       // The tip's distance from the entry; the depth is written under the cross.
       return instance_of(text.label) == 1 ? LabelRank::kFixed : LabelRank::kMeasured;
-    case HologramKind::kPath:
-    case HologramKind::kVertebra:
-    case HologramKind::kTriangle:
-    case HologramKind::kCross:
-    case HologramKind::kTwin:
-    case HologramKind::kStatus:
-    case HologramKind::kNumbers:
+    default:  // where it was placed, it stays
       return LabelRank::kFixed;
   }
-  return LabelRank::kFixed;
 }
 
 CapsBox box_at(const LabelPlace& place, const LabelExtent& extent) {
