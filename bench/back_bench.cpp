@@ -35,7 +35,7 @@ constexpr std::uint64_t kSeed = 3;
 class UntilSecondScrew : public engine::LoopObserver {
  public:
   std::function<void()> stop;
-  void stepped(const StereoFrame&, const engine::Inputs&,
+  void stepped(const FrameHeader&, const engine::Inputs&,
                const engine::Guidance& guidance) override {
     if (stop && guidance.step == engine::Step::kGuide && guidance.levels[0].screws[0].done) {
       stop();

@@ -52,7 +52,7 @@ int measure(double limit_s, hl2ss::VideoProfile profile) {
   double warm_mib = 0.0;
   double most_mib = 0.0;
   for (;;) {
-    const auto next = (*headset)->cameras().next(frame);
+    const auto next = (*headset)->cameras()->next(frame);
     if (next && *next == Next::kEnd) {
       break;
     }

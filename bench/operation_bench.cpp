@@ -19,7 +19,7 @@ namespace {
 /// Wall time from the end of one pair's step to the end of the next one's: the room and the step.
 class PairTimes : public engine::LoopObserver {
  public:
-  void stepped(const StereoFrame& /*frame*/, const engine::Inputs& /*inputs*/,
+  void stepped(const FrameHeader& /*frame*/, const engine::Inputs& /*inputs*/,
                const engine::Guidance& /*guidance*/) override {
     if (since_last_) {
       ms_.add(since_last_->elapsed_ms());

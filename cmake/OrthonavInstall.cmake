@@ -36,6 +36,7 @@ endforeach()
 set(orthonav_contract_folder "${CMAKE_INSTALL_DATADIR}/orthonav/contract")
 install(FILES "${PROJECT_SOURCE_DIR}/tests/contract/contract_test.cpp"
               "${PROJECT_SOURCE_DIR}/tests/contract/depth_contract_test.cpp"
+              "${PROJECT_SOURCE_DIR}/tests/contract/tool_poses_contract_test.cpp"
         DESTINATION "${orthonav_contract_folder}" COMPONENT dev)
 foreach(header contract/device_cases support/session_log)
   get_filename_component(folder "${header}" DIRECTORY)

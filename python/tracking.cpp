@@ -106,12 +106,12 @@ class Recording {
   explicit Recording(const std::string& folder)
       : folder_(folder), headset_(value_of(replay::ReplayHeadset::open(folder))) {}
   [[nodiscard]] const std::string& folder() const { return folder_; }
-  [[nodiscard]] const StereoCalibration& rig() const { return headset_->cameras().calibration(); }
+  [[nodiscard]] const StereoCalibration& rig() const { return headset_->cameras()->calibration(); }
   StereoFrame next() {
     StereoFrame frame;
-    auto next = headset_->cameras().next(frame);
+    auto next = headset_->cameras()->next(frame);
     while (!next && frame.repeats) {  // old pictures under new times are left out
-      next = headset_->cameras().next(frame);
+      next = headset_->cameras()->next(frame);
     }
     if (value_of(std::move(next)) != Next::kFrame) {
       throw py::stop_iteration();

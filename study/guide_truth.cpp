@@ -45,7 +45,7 @@ nav::Axis<Vertebra> axis_in(const Transform<Vertebra, Marker>& vertebra_from_mar
 
 }  // namespace
 
-void GuideTruth::stepped(const StereoFrame& frame, const Inputs& /*inputs*/,
+void GuideTruth::stepped(const FrameHeader& frame, const Inputs& /*inputs*/,
                          const Guidance& guidance) {
   note_wires();
   if (guidance.step == Step::kGuide) {

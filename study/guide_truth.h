@@ -20,7 +20,7 @@ class GuideTruth : public LoopObserver {
   GuideTruth(const sim::SimHeadset& headset, const Session& session)
       : headset_(headset), session_(session) {}
 
-  void stepped(const StereoFrame& frame, const Inputs& inputs, const Guidance& guidance) override;
+  void stepped(const FrameHeader& frame, const Inputs& inputs, const Guidance& guidance) override;
 
   /// Adds the deviations to the screws.
   void evaluate(OperationResult& result) const;

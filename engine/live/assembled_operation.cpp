@@ -14,9 +14,13 @@ namespace {
 Result<std::unique_ptr<nav::ToolTracker>> tracker_for(Headset& headset, const Method& method,
                                                       const std::vector<nav::ToolGeometry>& tools,
                                                       const nav::TrackerOptions& options) {
-  const auto measured = headset.cameras().measured_tools();
-  return measured.empty() ? method.create_tracker(headset.cameras().calibration(), tools, options)
-                          : nav::create_tracker_of_poses(measured, tools);
+  if (const ToolPoseSource* const source = headset.tool_poses()) {
+    return nav::create_tracker_of_poses(source->names(), tools);
+  }
+  if (headset.cameras() == nullptr) {
+    return Error{headset.name() + " has no cameras, and measures no tools itself"};
+  }
+  return method.create_tracker(headset.cameras()->calibration(), tools, options);
 }
 
 }  // namespace
@@ -62,7 +66,7 @@ Result<std::unique_ptr<AssembledOperation>> assemble_operation(
     return tracker.error();
   }
   const ErrorsInUse errors =
-      errors_in_use(options.errors, {.measures_tools = !headset.cameras().measured_tools().empty(),
+      errors_in_use(options.errors, {.measures_tools = headset.tool_poses() != nullptr,
                                      .patient_reference = options.use_reference});
   SessionOptions session_options = options.session;
   session_options.common = errors.common();

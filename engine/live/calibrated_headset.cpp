@@ -87,10 +87,10 @@ Result<CalibrationFile> load_calibration(const std::string& path) {
 
 Result<std::unique_ptr<CalibratedHeadset>> CalibratedHeadset::create(Headset& headset,
                                                                      const CalibrationFile& file) {
-  StereoCalibration calibration = headset.cameras().calibration();
-  if (!calibration.has_images()) {
+  if (headset.cameras() == nullptr) {
     return Error{file.name + ": " + headset.name() + " has no cameras to calibrate"};
   }
+  StereoCalibration calibration = headset.cameras()->calibration();
   if (file.lenses) {
     const Status left = check_size(file.name + ": left", file.lenses->left, calibration.left);
     const Status both =

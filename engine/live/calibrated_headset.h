@@ -32,7 +32,7 @@ class CalibratedHeadset : public ForwardingHeadset {
   /// Refuses lenses for a different image size than the device's.
   static Result<std::unique_ptr<CalibratedHeadset>> create(Headset& headset,
                                                            const CalibrationFile& file);
-  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] StereoCamera* cameras() override { return &cameras_; }
 
  private:
   class Cameras : public ForwardingCamera {
@@ -47,7 +47,7 @@ class CalibratedHeadset : public ForwardingHeadset {
   };
 
   CalibratedHeadset(Headset& headset, StereoCalibration calibration)
-      : ForwardingHeadset(headset), cameras_(headset.cameras(), std::move(calibration)) {}
+      : ForwardingHeadset(headset), cameras_(*headset.cameras(), std::move(calibration)) {}
 
   Cameras cameras_;
 };

@@ -83,13 +83,27 @@ Status FrameLoop::tolerate(const Status& status, int& in_a_row, LoopReport& repo
                status.error().code};
 }
 
+Result<Next> FrameLoop::pull() {
+  if (ToolPoseSource* const source = headset_->tool_poses()) {
+    return source->next(poses_);
+  }
+  return headset_->cameras()->next(frame_);
+}
+
+const FrameHeader& FrameLoop::newest() const {
+  if (headset_->tool_poses() != nullptr) {
+    return poses_;
+  }
+  return frame_;
+}
+
 /// False at the end of the stream. While no pair comes, guidance on the last one is taken back.
 Result<bool> FrameLoop::next_frame(SnapshotQueue* queue, LoopReport& report) {
   // While no pair comes, time passes all the same.
   while (!finished(report, report.last_frame + (headset_->clock().now() - heard_at_))) {
     const auto next = [&] {
       const Working working(&*beats_, Part::kCamera);
-      return headset_->cameras().next(frame_);
+      return pull();
     }();
     if (next && *next == Next::kFrame) {
       camera_errors_ = 0;
@@ -182,8 +196,9 @@ Status FrameLoop::poll_commands(LoopReport& report) {
   clicks_.clear();
   phrases_.clear();
   asked_.clear();
+  const Timestamp until = newest().time;
   if (requests_ != nullptr) {
-    requests_->take(frame_.time, asked_);
+    requests_->take(until, asked_);
   }
   const auto tell_of = [&](const Status& failed, int before) {
     for (LoopObserver* observer : observers_) {
@@ -192,7 +207,7 @@ Status FrameLoop::poll_commands(LoopReport& report) {
       }
     }
   };
-  const Status clicked = headset_->clicker().poll(frame_.time, clicks_);
+  const Status clicked = headset_->clicker().poll(until, clicks_);
   tell_of(clicked, no_clicker_ ? 1 : clicker_errors_);
   // One that is not there now may come back: the status line says so meanwhile.
   const bool was_away = no_clicker_;
@@ -206,7 +221,7 @@ Status FrameLoop::poll_commands(LoopReport& report) {
     return over;
   }
   const Working working(&*beats_, Part::kVoice);
-  const Status heard = headset_->voice().poll(frame_.time, phrases_);
+  const Status heard = headset_->voice().poll(until, phrases_);
   voice_stalled_ = !heard && heard.error().code == ErrorCode::kUnavailable;
   if (voice_stalled_) {
     return {};
@@ -253,13 +268,21 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   count_stall(inputs.stalled, report);
   // A frame will be submitted from now on; the images took a while to arrive.
   inputs.display_time = heard_at_ + headset_->display_latency();
-  const Guidance& guidance = session_.step(frame_, inputs);
-  report.last_frame = frame_.time;
+  const bool measures_tools = headset_->tool_poses() != nullptr;
+  for (LoopObserver* observer : observers_) {
+    if (!measures_tools) {
+      observer->pair_came(frame_);
+    }
+  }
+  const Guidance& guidance =
+      measures_tools ? session_.step(poses_, inputs) : session_.step(frame_, inputs);
+  const FrameHeader& frame = newest();
+  report.last_frame = frame.time;
   if (!first_frame_) {
-    first_frame_ = frame_.time;
+    first_frame_ = frame.time;
   }
   for (LoopObserver* observer : observers_) {
-    observer->stepped(frame_, inputs, guidance);
+    observer->stepped(frame, inputs, guidance);
   }
   // Tracking took time: guidance that has become too old meanwhile is not shown.
   builder_.look_at(sink_ ? sink_->gaze() : std::nullopt);
@@ -267,7 +290,7 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   builder_.write_shown(guidance, shown_);
   show();
   report.step_wall_ms.add(watch.elapsed_ms());
-  guiding_since_ = frame_.time;
+  guiding_since_ = frame.time;
   count_displayed(guidance, queue, report);
   return {};
 }

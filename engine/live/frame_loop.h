@@ -12,14 +12,18 @@
 #include "engine/live/snapshot_queue.h"
 #include "engine/session/session.h"
 #include "hal/api/devices.h"
+#include "hal/api/tool_pose_source.h"
 
 namespace orthonav::engine {
 
-/// Observes, on the tracking thread, the inputs of every stereo pair and the results.
+/// Observes, on the tracking thread, the inputs of every stereo pair (or of every moment at which
+/// the device measured tools itself) and the results.
 class LoopObserver {
  public:
   virtual ~LoopObserver() = default;
-  virtual void stepped(const StereoFrame& /*frame*/, const Inputs& /*inputs*/,
+  /// The pair itself, before what is done with it; valid until the next.
+  virtual void pair_came(const StereoFrame& /*pair*/) {}
+  virtual void stepped(const FrameHeader& /*frame*/, const Inputs& /*inputs*/,
                        const Guidance& /*guidance*/) {}
   /// What is on display from its display time on; every frame is shown, also when it takes back.
   virtual void shown(const ShownFrame& /*frame*/) {}
@@ -99,7 +103,8 @@ struct LoopReport {
   Histogram draw_wall_ms;  ///< wall time of the sink, per snapshot
 };
 
-/// From stereo pairs to the display: tracking on the calling thread, drawing on a separate thread.
+/// From stereo pairs, or from poses of tools where the device measures them itself, to the display:
+/// tracking on the calling thread, drawing on a separate thread.
 /// Drawing only takes snapshots, so it can't influence a result; only if it stalls, by the device's
 /// clock, is guidance hidden. An exception in either thread ends the run in an orderly way, with an
 /// Error that names the part.
@@ -133,6 +138,9 @@ class FrameLoop {
   [[nodiscard]] std::optional<Part> stalled() const;
   void count_stall(std::optional<Part> now, LoopReport& report);
   Result<bool> next_frame(SnapshotQueue* queue, LoopReport& report);
+  Result<Next> pull();
+  /// The newest pair or poses.
+  [[nodiscard]] const FrameHeader& newest() const;
   Status wait_for_pair(SnapshotQueue* queue, LoopReport& report);
   void take_back(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report);
   void show();
@@ -171,6 +179,7 @@ class FrameLoop {
 
   // Reused from pair to pair.
   StereoFrame frame_;
+  ToolPoses poses_;  ///< in place of pairs, if the headset measures tools itself
   std::vector<ClickerEvent> clicks_;
   std::vector<Phrase> phrases_;
   std::vector<Request> asked_;

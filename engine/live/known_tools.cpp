@@ -23,7 +23,7 @@ Result<std::vector<nav::ToolGeometry>> tools_known_to(Headset& headset) {
     return parse_tools(file->text, file->name);
   }
   const auto* described = std::get_if<std::vector<DescribedTool>>(&known);
-  if (!described && !headset.cameras().measured_tools().empty()) {
+  if (!described && headset.tool_poses() != nullptr) {
     return Error{headset.name() +
                  " measures tools itself: a file of tools must say where their tips lie (--tools)"};
   }

@@ -75,7 +75,16 @@ Status Session::resume(const LoggedOperation& logged) {
   return resuming_.restore(logged, work_, rods_);
 }
 
-const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
+const Guidance& Session::step(const StereoFrame& pair, const Inputs& inputs) {
+  return step_with(pair, inputs);
+}
+
+const Guidance& Session::step(const ToolPoses& poses, const Inputs& inputs) {
+  return step_with(poses, inputs);
+}
+
+template <class Frame>
+const Guidance& Session::step_with(const Frame& frame, const Inputs& inputs) {
   const Timestamp now = frame.time;
   // Events must not be answered with measurements from another map.
   handle(watching_.look_at_map(frame, work_), now);
@@ -437,7 +446,7 @@ StepState Session::state() const {
   return {};
 }
 
-void Session::publish(const StereoFrame& frame, Timestamp display_time) {
+void Session::publish(const FrameHeader& frame, Timestamp display_time) {
   Guidance& out = guidance_;
   out.frame_time = frame.time;
   out.display_time = display_time;

@@ -72,7 +72,10 @@ class Session {
 
   /// Processes one stereo pair: answers events up to it in order of time, tracks the tools and does
   /// the step's work. The result is valid until the next call.
-  const Guidance& step(const StereoFrame& frame, const Inputs& inputs);
+  const Guidance& step(const StereoFrame& pair, const Inputs& inputs);
+  /// The same with the poses of a device that measures tools itself; the session's tracker is one
+  /// that takes them.
+  const Guidance& step(const ToolPoses& poses, const Inputs& inputs);
 
   /// No pair has arrived for longer than guidance may stay, or only such that repeat what came
   /// before: withdraws the guidance of the last one. The next step continues normally.
@@ -97,6 +100,8 @@ class Session {
  private:
   Session(Operation operation, WatchedTools tools, Method method, const SessionOptions& options);
 
+  template <class Frame>
+  const Guidance& step_with(const Frame& frame, const Inputs& inputs);
   void answer_inputs(const Inputs& inputs);
   void answer_request(const Request& request);
   /// The event that a phrase or a request of another program stands for; none if it was not
@@ -133,7 +138,7 @@ class Session {
   [[nodiscard]] StepState state() const;
 
   // What the surgeon is shown after a pair, assembled from what each step shows.
-  void publish(const StereoFrame& frame, Timestamp display_time);
+  void publish(const FrameHeader& frame, Timestamp display_time);
   void publish_status();
   /// Withdraws the guidance of the last pair, and says why.
   const Guidance& withdraw(Timestamp display_time, Message why);

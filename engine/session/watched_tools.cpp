@@ -109,8 +109,8 @@ WatchedTools::WatchedTools(std::unique_ptr<nav::ToolTracker> tracker, std::size_
   }
 }
 
-void WatchedTools::track(const StereoFrame& frame) {
-  states_ = tracker_->track(frame);
+void WatchedTools::note(std::span<const nav::ToolState> states) {
+  states_ = states;
   for (std::size_t i = 0; i < watches_.size() && i < states_.size(); ++i) {
     watches_[i].update(states_[i].world_from_marker);
     sights_[i].status = states_[i].world_from_marker.status;

@@ -48,7 +48,8 @@ class WatchedTools {
   static Result<WatchedTools> create(std::unique_ptr<nav::ToolTracker> tracker,
                                      bool rods_alone = false);
 
-  void track(const StereoFrame& frame);
+  void track(const StereoFrame& pair) { note(tracker_->track(pair)); }
+  void track(const ToolPoses& poses) { note(tracker_->take(poses)); }
   /// Forgets the poses, which are void.
   void forget_poses();
   /// No pair arrives, so no tool is seen.
@@ -93,6 +94,7 @@ class WatchedTools {
  private:
   WatchedTools(std::unique_ptr<nav::ToolTracker> tracker, std::size_t pointer,
                std::optional<std::size_t> guide);
+  void note(std::span<const nav::ToolState> states);
 
   std::unique_ptr<nav::ToolTracker> tracker_;
   std::optional<nav::ToolGeometry> corrected_guide_;

@@ -19,7 +19,7 @@ std::optional<Event> ToolInUse::look(const ToolWatch& watch, Timestamp now, Dura
   return std::nullopt;
 }
 
-std::optional<Event> Watching::look_at_map(const StereoFrame& frame, const SessionState& work) {
+std::optional<Event> Watching::look_at_map(const FrameHeader& frame, const SessionState& work) {
   const bool moved = map_epoch_ && *map_epoch_ != frame.map_epoch;
   map_epoch_ = frame.map_epoch;
   // With a patient reference nothing depends on the map.

@@ -44,7 +44,7 @@ class Watching {
   /// Whether a pair was processed.
   [[nodiscard]] bool begun() const { return map_epoch_.has_value(); }
 
-  [[nodiscard]] std::optional<Event> look_at_map(const StereoFrame& frame,
+  [[nodiscard]] std::optional<Event> look_at_map(const FrameHeader& frame,
                                                  const SessionState& work);
   /// Whether references moved against each other.
   [[nodiscard]] std::optional<Event> detect_reference_shift(const SessionState& work);

@@ -52,18 +52,13 @@ struct DepthCalibration {
 };
 
 /// One picture of a depth camera. The buffers are reused from frame to frame.
-struct DepthFrame {
-  std::int64_t sequence = 0;
-  std::int64_t map_epoch = 0;  ///< as StereoFrame's
-  Timestamp time{};            ///< mid-exposure
+struct DepthFrame : FrameHeader {
   /// Distance along each pixel's ray in whole millimetres; 0: not measured, regardless of how the
   /// device marks that.
   DepthImage range_mm;
   /// How brightly each pixel returned the camera's own infrared light, in the device's unit; of the
   /// same size, or empty if the device does not report it.
   DepthImage brightness;
-  /// Where the headset was at `time`; absent while the headset is not located.
-  std::optional<Transform<World, Rig>> world_from_rig;
 
   void clear();
 };

@@ -68,48 +68,12 @@ const char* problem_of(ClickerAction action, const ButtonState& button) {
   return nullptr;
 }
 
-/// A device's stated error must be finite and have no negative variance.
-bool is_sound(const PoseCovariance& covariance) {
-  bool sound = true;
-  for (std::size_t i = 0; i < covariance.size(); ++i) {
-    sound = sound && std::isfinite(covariance[i]) && (i % 7 != 0 || covariance[i] >= 0.0);
-  }
-  return sound;
-}
-
-constexpr const char* kUnsound = " is not finite, or has a negative variance";
-
 Status check_covariance(const char* what, const StereoFrame& frame) {
   if (!frame.head_covariance || is_sound(*frame.head_covariance)) {
     return {};
   }
   return Error{std::string(what) + ": covariance of the head's pose at " + in_seconds(frame.time) +
-               kUnsound};
-}
-
-/// A frame holds only tools that the device names, each at most once.
-Status check_tools(const char* what, const StereoFrame& frame, std::span<const std::string> names) {
-  for (std::size_t i = 0; i < frame.tools.size(); ++i) {
-    const MeasuredTool& tool = frame.tools[i];
-    if (tool.tool >= names.size()) {
-      return Error{std::string(what) + ": measures tool " + std::to_string(tool.tool) + ", names " +
-                   std::to_string(names.size())};
-    }
-    const std::string pose =
-        std::string(what) + ": pose of " + names[tool.tool] + " at " + in_seconds(frame.time);
-    for (std::size_t k = 0; k < i; ++k) {
-      if (frame.tools[k].tool == tool.tool) {
-        return Error{pose + " comes twice"};
-      }
-    }
-    if (!is_rigid({tool.rig_from_marker.rotation(), tool.rig_from_marker.translation()})) {
-      return Error{pose + " is not a rigid motion"};
-    }
-    if (!is_sound(tool.covariance)) {
-      return Error{pose + ": covariance" + kUnsound};
-    }
-  }
-  return {};
+               " is not finite, or has a negative variance"};
 }
 
 }  // namespace
@@ -120,7 +84,6 @@ void StereoFrame::clear() {
   sequence = -1;
   world_from_rig.reset();
   head_covariance.reset();
-  tools.clear();
 }
 
 Result<Next> StereoCamera::next(StereoFrame& frame) {
@@ -129,9 +92,8 @@ Result<Next> StereoCamera::next(StereoFrame& frame) {
   auto answer = order_.next(
       kWhat, frame, [&] { return do_next(frame); },
       [&] {
-        Status good = check_images(kWhat, frame, calibration());
-        good = good ? check_covariance(kWhat, frame) : good;
-        return good ? check_tools(kWhat, frame, measured_tools()) : good;
+        const Status good = check_images(kWhat, frame, calibration());
+        return good ? check_covariance(kWhat, frame) : good;
       });
   if (!answer || *answer != Next::kFrame) {
     return answer;

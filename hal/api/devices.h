@@ -16,12 +16,11 @@
 #include "hal/api/connection_statistics.h"
 #include "hal/api/described_tools.h"
 #include "hal/api/frame_order.h"
-#include "hal/api/measured_tool.h"
 #include "hal/api/repeat_watch.h"
 
 namespace orthonav {
 
-/// The two front cameras as the device reports them; without pixels if it has none.
+/// The two front cameras as the device reports them.
 struct StereoCalibration {
   CameraModel left;
   CameraModel right;
@@ -31,27 +30,16 @@ struct StereoCalibration {
   [[nodiscard]] Transform<RightCamera, LeftCamera> right_from_left() const {
     return right_from_rig * left_from_rig.inverse();
   }
-  [[nodiscard]] bool has_images() const { return left.width_px() > 0 && right.width_px() > 0; }
 };
 
 /// Two images taken at the same moment. The buffers are reused from frame to frame, or exchanged
 /// for some that were used before.
-struct StereoFrame {
-  std::int64_t sequence = 0;
-  /// The map that World belongs to. It increases when the device's map has moved or was replaced
-  /// (recentred, relocalised, lost and found again): earlier positions in World then mean nothing.
-  std::int64_t map_epoch = 0;
-  Timestamp time{};  ///< mid-exposure
+struct StereoFrame : FrameHeader {
   GreyImage left;
   GreyImage right;
-  /// Where the headset was at `time`; absent while the headset is not located.
-  std::optional<Transform<World, Rig>> world_from_rig;
-  /// Covariance of that pose, without drift of the map, if the device states it: of (translation m,
-  /// rotation vector rad about the rig's origin), in World.
+  /// Covariance of the head's pose, without drift of the map, if the device states it: of
+  /// (translation m, rotation vector rad about the rig's origin), in World.
   std::optional<PoseCovariance> head_covariance;
-  /// Tools that the device itself measured at `time`, each at most once; tools that it did not see
-  /// are left out. Empty for a device that does not track tools itself.
-  std::vector<MeasuredTool> tools;
   /// Why a pair came back empty: it repeats what came before. Set with the Error, and absent with
   /// any other; a device that decodes its pictures sets it where only it can tell.
   std::optional<Repeated> repeats;
@@ -75,16 +63,10 @@ class PairTap {
 /// the head's pose repeats under a new time; after kEnd there is only kEnd. A frame that breaks the
 /// contract results in an Error and is not passed on (`frame` comes back empty, and `repeats` says
 /// whether it is an old one); the stream continues with the next good frame.
-///
-/// A device that measures tools itself names them, and its frames carry their poses; if it has no
-/// cameras, its calibration and images are empty.
 class StereoCamera {
  public:
   virtual ~StereoCamera() = default;
   [[nodiscard]] const StereoCalibration& calibration() const { return do_calibration(); }
-  /// Names of the tools that the device itself measures; the same at every call. Empty: tools are
-  /// found in its images.
-  [[nodiscard]] std::span<const std::string> measured_tools() const { return do_measured_tools(); }
   /// What may repeat at this device; nothing where sensors are behind it.
   [[nodiscard]] MayRepeat may_repeat() const { return do_may_repeat(); }
   /// Fills `frame` with the next pair, never the same one twice. Does not block.
@@ -96,7 +78,6 @@ class StereoCamera {
 
  private:
   [[nodiscard]] virtual const StereoCalibration& do_calibration() const = 0;
-  [[nodiscard]] virtual std::span<const std::string> do_measured_tools() const { return {}; }
   virtual bool do_tap(PairTap* /*tap*/) { return false; }
   [[nodiscard]] virtual MayRepeat do_may_repeat() const { return {}; }
   virtual Result<Next> do_next(StereoFrame& frame) = 0;
@@ -200,11 +181,12 @@ class Voice {
   std::optional<Timestamp> last_time_;
 };
 
-class DepthCamera;    // hal/api/depth_camera.h
-class Microphone;     // hal/api/microphone.h
-class ObjectDisplay;  // hal/api/object_display.h
-class PixelDisplay;   // hal/api/pixel_display.h
-class Wearer;         // hal/api/wearer.h
+class DepthCamera;     // hal/api/depth_camera.h
+class Microphone;      // hal/api/microphone.h
+class ObjectDisplay;   // hal/api/object_display.h
+class PixelDisplay;    // hal/api/pixel_display.h
+class ToolPoseSource;  // hal/api/tool_pose_source.h
+class Wearer;          // hal/api/wearer.h
 
 /// A headset and its parts, each of which lives as long as the headset.
 class Headset {
@@ -219,7 +201,11 @@ class Headset {
   [[nodiscard]] std::int64_t file_ticks_100ns(Timestamp t) const {
     return epoch_ticks_100ns() + ticks_100ns(t);
   }
-  [[nodiscard]] virtual StereoCamera& cameras() = 0;
+  /// Its two front cameras; null: it has none. The same at every call.
+  [[nodiscard]] virtual StereoCamera* cameras() = 0;
+  /// Poses of tools, if it measures them itself; null otherwise: it has cameras, and tools are
+  /// found in their pictures. The same at every call.
+  [[nodiscard]] virtual ToolPoseSource* tool_poses() { return nullptr; }
   [[nodiscard]] virtual HeadTracker& head() = 0;
   [[nodiscard]] virtual Clicker& clicker() = 0;
   [[nodiscard]] virtual Voice& voice() = 0;

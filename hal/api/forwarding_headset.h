@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hal/api/devices.h"
+#include "hal/api/tool_pose_source.h"
 
 namespace orthonav {
 
@@ -15,15 +16,25 @@ class ForwardingCamera : public StereoCamera {
   [[nodiscard]] const StereoCalibration& do_calibration() const override {
     return inner_.calibration();
   }
-  [[nodiscard]] std::span<const std::string> do_measured_tools() const override {
-    return inner_.measured_tools();
-  }
   bool do_tap(PairTap* tap) override { return inner_.tap(tap); }
   [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.may_repeat(); }
   Result<Next> do_next(StereoFrame& frame) override { return inner_.next(frame); }
 
  private:
   StereoCamera& inner_;
+};
+
+/// The same of poses of tools.
+class ForwardingToolPoses : public ToolPoseSource {
+ public:
+  explicit ForwardingToolPoses(ToolPoseSource& inner) : inner_(inner) {}
+
+ protected:
+  [[nodiscard]] std::span<const std::string> do_names() const override { return inner_.names(); }
+  Result<Next> do_next(ToolPoses& poses) override { return inner_.next(poses); }
+
+ private:
+  ToolPoseSource& inner_;
 };
 
 /// Forwards to another headset, part by part; a base class for headsets that replace some parts.
@@ -36,7 +47,8 @@ class ForwardingHeadset : public Headset {
   [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
     return inner_.epoch_ticks_100ns();
   }
-  [[nodiscard]] StereoCamera& cameras() override { return inner_.cameras(); }
+  [[nodiscard]] StereoCamera* cameras() override { return inner_.cameras(); }
+  [[nodiscard]] ToolPoseSource* tool_poses() override { return inner_.tool_poses(); }
   [[nodiscard]] HeadTracker& head() override { return inner_.head(); }
   [[nodiscard]] Clicker& clicker() override { return inner_.clicker(); }
   [[nodiscard]] Voice& voice() override { return inner_.voice(); }

@@ -1,5 +1,7 @@
 #include "hal/api/frame_order.h"
 
+#include <cmath>
+
 namespace orthonav {
 
 std::string in_seconds(Timestamp t) { return std::to_string(seconds(t.time_since_epoch())) + " s"; }
@@ -11,30 +13,37 @@ bool is_rigid(const Transform<World, Rig>& pose) {
          orthonormality_error(pose.rotation()) <= kMaxPoseDeviation;
 }
 
-Status FrameOrder::check_order(std::string_view what, Timestamp time, std::int64_t sequence,
-                               std::int64_t map_epoch) const {
+bool is_sound(const PoseCovariance& covariance) {
+  bool sound = true;
+  for (std::size_t i = 0; i < covariance.size(); ++i) {
+    sound = sound && std::isfinite(covariance[i]) && (i % 7 != 0 || covariance[i] >= 0.0);
+  }
+  return sound;
+}
+
+Status FrameOrder::check_order(std::string_view what, const FrameHeader& frame) const {
   const std::string name(what);
-  if (last_.time && time <= *last_.time) {
-    return Error{name + ": time " + in_seconds(time) + " does not come after " +
+  if (last_.time && frame.time <= *last_.time) {
+    return Error{name + ": time " + in_seconds(frame.time) + " does not come after " +
                  in_seconds(*last_.time)};
   }
-  if (sequence <= last_.sequence) {
-    return Error{name + ": sequence number " + std::to_string(sequence) + " does not come after " +
-                 std::to_string(last_.sequence)};
+  if (frame.sequence <= last_.sequence) {
+    return Error{name + ": sequence number " + std::to_string(frame.sequence) +
+                 " does not come after " + std::to_string(last_.sequence)};
   }
-  if (map_epoch < last_.map_epoch) {
-    return Error{name + ": map epoch " + std::to_string(map_epoch) + " comes after " +
+  if (frame.map_epoch < last_.map_epoch) {
+    return Error{name + ": map epoch " + std::to_string(frame.map_epoch) + " comes after " +
                  std::to_string(last_.map_epoch)};
   }
   return {};
 }
 
-Status FrameOrder::check_pose(std::string_view what, Timestamp time,
-                              const std::optional<Transform<World, Rig>>& pose) {
-  if (!pose || is_rigid(*pose)) {
+Status FrameOrder::check_pose(std::string_view what, const FrameHeader& frame) {
+  if (!frame.world_from_rig || is_rigid(*frame.world_from_rig)) {
     return {};
   }
-  return Error{std::string(what) + ": head pose at " + in_seconds(time) + " is not a rigid motion"};
+  return Error{std::string(what) + ": head pose at " + in_seconds(frame.time) +
+               " is not a rigid motion"};
 }
 
 }  // namespace orthonav

@@ -9,6 +9,7 @@
 #include "base/image.h"
 #include "base/result.h"
 #include "base/time.h"
+#include "base/tracked.h"
 #include "base/transform.h"
 
 namespace orthonav {
@@ -22,25 +23,39 @@ enum class Next {
 /// A time as written in messages.
 [[nodiscard]] std::string in_seconds(Timestamp t);
 
+/// What every frame of a device says, whatever it holds.
+struct FrameHeader {
+  std::int64_t sequence = 0;
+  /// The map that World belongs to. It increases when the device's map has moved or was replaced
+  /// (recentred, relocalised, lost and found again): earlier positions in World then mean nothing.
+  std::int64_t map_epoch = 0;
+  Timestamp time{};  ///< mid-exposure
+  /// Where the headset was at `time`; absent while the headset is not located.
+  std::optional<Transform<World, Rig>> world_from_rig;
+};
+
 /// Whether a device may publish a pose: finite, and a rotation up to rounding.
 [[nodiscard]] bool is_rigid(const Transform<World, Rig>& pose);
+/// Whether a device may state this error of a pose: finite, without a negative variance.
+[[nodiscard]] bool is_sound(const PoseCovariance& covariance);
 
 /// The contract of every stream of frames, from any device: times and sequence numbers strictly
 /// increase, the map's epoch never decreases, a pose is a rigid motion; after kEnd there is only
-/// kEnd. `Frame` has time, sequence, map_epoch, world_from_rig and clear().
+/// kEnd. A `Frame` is a FrameHeader with clear().
 class FrameOrder {
  public:
-  /// A device's public call: `do_next` does the work, `check_images` says whether the frame fits
-  /// the calibration. A frame that breaks the contract comes back empty, with an Error.
-  template <class Frame, class DoNext, class CheckImages>
+  /// A device's public call: `do_next` does the work, `check_content` says whether what the
+  /// frame holds is as the device describes it. A frame that breaks the contract comes back empty,
+  /// with an Error.
+  template <class Frame, class DoNext, class CheckContent>
   Result<Next> next(std::string_view what, Frame& frame, const DoNext& do_next,
-                    const CheckImages& check_images) {
+                    const CheckContent& check_content) {
     if (ended_) {
       return Next::kEnd;
     }
     Result<Next> answer = do_next();
     if (answer && *answer == Next::kFrame) {
-      if (const Status good = check(what, frame, check_images); !good) {
+      if (const Status good = check(what, frame, check_content); !good) {
         answer = good.error();
       }
     }
@@ -51,14 +66,14 @@ class FrameOrder {
     return answer;
   }
   /// Whether it may follow the ones before it, which are those that passed.
-  template <class Frame, class CheckImages>
-  Status check(std::string_view what, const Frame& frame, const CheckImages& check_images) {
-    Status good = check_order(what, frame.time, frame.sequence, frame.map_epoch);
+  template <class CheckContent>
+  Status check(std::string_view what, const FrameHeader& frame, const CheckContent& check_content) {
+    Status good = check_order(what, frame);
     if (good) {
-      good = check_images();
+      good = check_content();
     }
     if (good) {
-      good = check_pose(what, frame.time, frame.world_from_rig);
+      good = check_pose(what, frame);
     }
     if (good) {
       last_ = {frame.time, frame.sequence, frame.map_epoch};
@@ -75,10 +90,8 @@ class FrameOrder {
   Last last_;
   bool ended_ = false;
 
-  [[nodiscard]] Status check_order(std::string_view what, Timestamp time, std::int64_t sequence,
-                                   std::int64_t map_epoch) const;
-  [[nodiscard]] static Status check_pose(std::string_view what, Timestamp time,
-                                         const std::optional<Transform<World, Rig>>& pose);
+  [[nodiscard]] Status check_order(std::string_view what, const FrameHeader& frame) const;
+  [[nodiscard]] static Status check_pose(std::string_view what, const FrameHeader& frame);
 };
 
 /// Whether the `which` image of the stream `what` has its calibration's size and as many pixels.

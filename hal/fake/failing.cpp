@@ -19,7 +19,8 @@ std::optional<Kind> fault_at(const std::vector<Fault<Kind>>& faults, std::int64_
   return std::nullopt;
 }
 
-Transform<World, Rig> mirrored(const Transform<World, Rig>& pose) {
+template <class To, class From>
+Transform<To, From> mirrored(const Transform<To, From>& pose) {
   Mat3 rotation = pose.rotation();
   for (double& entry : rotation[0]) {
     entry = -entry;
@@ -27,7 +28,8 @@ Transform<World, Rig> mirrored(const Transform<World, Rig>& pose) {
   return {rotation, pose.translation()};
 }
 
-Transform<World, Rig> not_a_number(const Transform<World, Rig>& pose) {
+template <class To, class From>
+Transform<To, From> not_a_number(const Transform<To, From>& pose) {
   return {pose.rotation(), {std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0}};
 }
 
@@ -107,6 +109,55 @@ Result<Next> FailingCamera::spoiled(CameraFault fault, StereoFrame& frame) {
   return Next::kFrame;
 }
 
+Result<Next> FailingToolPoses::do_next(ToolPoses& poses) {
+  const auto fault = fault_at(faults_, call_++);
+  if (fault == ToolPoseFault::kDelay) {
+    return Next::kNone;
+  }
+  auto answer = ForwardingToolPoses::do_next(poses);
+  if (fault == ToolPoseFault::kDrop && answer && *answer == Next::kFrame) {
+    answer = ForwardingToolPoses::do_next(poses);
+  }
+  if (!answer || *answer != Next::kFrame || !fault) {
+    last_ = poses.time;
+    return answer;
+  }
+  auto& tool = poses.tools.back();
+  switch (*fault) {
+    case ToolPoseFault::kDrop:
+    case ToolPoseFault::kDelay:
+      break;  // done before they were taken
+    case ToolPoseFault::kError:
+      return Error{"tool poses: simulated failure"};
+    case ToolPoseFault::kLost:
+      tool = {};
+      break;
+    case ToolPoseFault::kOneLess:
+      poses.tools.pop_back();
+      break;
+    case ToolPoseFault::kPredicted:
+      tool.status = PoseStatus::kPredicted;
+      break;
+    case ToolPoseFault::kOtherTime:
+      tool.time += Duration(1);
+      break;
+    case ToolPoseFault::kTimeBack:
+      poses.time = last_;
+      break;
+    case ToolPoseFault::kMirroredPose:
+      tool.value = mirrored(tool.value);
+      break;
+    case ToolPoseFault::kNanPose:
+      tool.value = not_a_number(tool.value);
+      break;
+    case ToolPoseFault::kNegativeVariance:
+      tool.covariance[7] = -1e-12;
+      break;
+  }
+  last_ = poses.time;
+  return answer;
+}
+
 Tracked<Transform<World, Rig>> FailingHead::do_world_from_rig(Timestamp at) const {
   auto answer = inner_.world_from_rig(at);
   const auto fault = fault_at(faults_, call_++);
@@ -180,9 +231,15 @@ template class FailingEvents<Voice, Phrase>;
 
 FailingHeadset::FailingHeadset(Headset& inner, Faults faults)
     : ForwardingHeadset(inner),
-      cameras_(inner.cameras(), std::move(faults.camera)),
       head_(inner.head(), std::move(faults.head)),
       clicker_(inner.clicker(), std::move(faults.clicker)),
-      voice_(inner.voice(), std::move(faults.voice)) {}
+      voice_(inner.voice(), std::move(faults.voice)) {
+  if (StereoCamera* cameras = inner.cameras()) {
+    cameras_.emplace(*cameras, std::move(faults.camera));
+  }
+  if (ToolPoseSource* poses = inner.tool_poses()) {
+    tool_poses_.emplace(*poses, std::move(faults.tool_poses));
+  }
+}
 
 }  // namespace orthonav::fake

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,19 @@ enum class CameraFault {
   kNoPose,  ///< the head is not located: allowed
   kNoise    ///< every pixel inverted: allowed, since it can't be detected
 };
+enum class ToolPoseFault {
+  kDrop,   ///< these poses are lost, and the next ones come instead
+  kDelay,  ///< kNone now; they come with the next call
+  kError,  ///< an Error, and they are lost
+  kLost,   ///< the last tool is out of sight: allowed
+  kOneLess,
+  kPredicted,
+  kOtherTime,
+  kTimeBack,  ///< stamped like those before
+  kMirroredPose,
+  kNanPose,
+  kNegativeVariance
+};
 enum class HeadFault { kLost, kWrongTime, kNanPose, kMirroredPose, kNanCovariance };
 enum class EventFault {
   kDrop,      ///< this event is lost
@@ -58,6 +72,20 @@ class FailingCamera : public ForwardingCamera {
   bool do_tap(PairTap* /*tap*/) override { return false; }
   Result<Next> do_next(StereoFrame& frame) override;
   Result<Next> spoiled(CameraFault fault, StereoFrame& frame);
+};
+
+/// The same of poses of tools.
+class FailingToolPoses : public ForwardingToolPoses {
+ public:
+  FailingToolPoses(ToolPoseSource& inner, std::vector<Fault<ToolPoseFault>> faults)
+      : ForwardingToolPoses(inner), faults_(std::move(faults)) {}
+
+ private:
+  std::vector<Fault<ToolPoseFault>> faults_;
+  std::int64_t call_ = 0;
+  Timestamp last_{};  ///< as passed on
+
+  Result<Next> do_next(ToolPoses& poses) override;
 };
 
 /// `at` counts the calls.
@@ -95,6 +123,7 @@ using FailingVoice = FailingEvents<Voice, Phrase>;
 
 struct Faults {
   std::vector<Fault<CameraFault>> camera{};
+  std::vector<Fault<ToolPoseFault>> tool_poses{};
   std::vector<Fault<HeadFault>> head{};
   std::vector<Fault<EventFault>> clicker{};
   std::vector<Fault<EventFault>> voice{};
@@ -105,13 +134,17 @@ class FailingHeadset : public ForwardingHeadset {
  public:
   FailingHeadset(Headset& inner, Faults faults);
   [[nodiscard]] std::string name() const override { return "failing " + ForwardingHeadset::name(); }
-  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] StereoCamera* cameras() override { return cameras_ ? &*cameras_ : nullptr; }
+  [[nodiscard]] ToolPoseSource* tool_poses() override {
+    return tool_poses_ ? &*tool_poses_ : nullptr;
+  }
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
 
  private:
-  FailingCamera cameras_;
+  std::optional<FailingCamera> cameras_;
+  std::optional<FailingToolPoses> tool_poses_;
   FailingHead head_;
   FailingClicker clicker_;
   FailingVoice voice_;

@@ -5,6 +5,29 @@
 
 namespace orthonav::fake {
 
+namespace {
+
+/// What one call gives, and the call after the last.
+template <class Frame>
+Result<Next> play(const std::vector<std::variant<Frame, Next, Error>>& steps, std::size_t& next,
+                  Frame& frame, ManualClock& clock) {
+  if (next == steps.size()) {
+    return Next::kEnd;
+  }
+  const auto& step = steps[next++];
+  if (const Error* error = std::get_if<Error>(&step)) {
+    return *error;
+  }
+  if (const Next* answer = std::get_if<Next>(&step)) {
+    return *answer;
+  }
+  frame = std::get<Frame>(step);
+  clock.set(frame.time);
+  return Next::kFrame;
+}
+
+}  // namespace
+
 ScriptedCamera::ScriptedCamera(StereoCalibration calibration, std::vector<CameraStep> steps,
                                ManualClock& clock, MayRepeat may_repeat)
     : calibration_(std::move(calibration)),
@@ -13,19 +36,11 @@ ScriptedCamera::ScriptedCamera(StereoCalibration calibration, std::vector<Camera
       may_repeat_(may_repeat) {}
 
 Result<Next> ScriptedCamera::do_next(StereoFrame& frame) {
-  if (next_ == steps_.size()) {
-    return Next::kEnd;
-  }
-  const CameraStep& step = steps_[next_++];
-  if (const Error* error = std::get_if<Error>(&step)) {
-    return *error;
-  }
-  if (const Next* answer = std::get_if<Next>(&step)) {
-    return *answer;
-  }
-  frame = std::get<StereoFrame>(step);
-  clock_.set(frame.time);
-  return Next::kFrame;
+  return play(steps_, next_, frame, clock_);
+}
+
+Result<Next> ScriptedToolPoses::do_next(ToolPoses& poses) {
+  return play(steps_, next_, poses, clock_);
 }
 
 Result<Next> ScriptedDepth::do_next(DepthFrame& frame) {
@@ -100,6 +115,7 @@ FakeHeadset::FakeHeadset(Script script)
     : epoch_ticks_100ns_(script.epoch_ticks_100ns),
       clock_(script.clock_start),
       cameras_(std::move(script.calibration), std::move(script.camera), clock_, script.may_repeat),
+      tool_poses_(std::move(script.tools), std::move(script.tool_poses), clock_),
       head_(std::move(script.head), clock_),
       clicker_(std::move(script.clicker)),
       voice_(std::move(script.voice)),

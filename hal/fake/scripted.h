@@ -9,6 +9,7 @@
 
 #include "hal/api/depth_camera.h"
 #include "hal/api/devices.h"
+#include "hal/api/tool_pose_source.h"
 
 namespace orthonav::fake {
 
@@ -44,6 +45,26 @@ class ScriptedCamera : public StereoCamera {
   [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
   [[nodiscard]] MayRepeat do_may_repeat() const override { return may_repeat_; }
   Result<Next> do_next(StereoFrame& frame) override;
+};
+
+/// The same of poses of tools.
+using ToolPoseStep = std::variant<ToolPoses, Next, Error>;
+
+/// Plays its steps, one per call, then ends. Delivered poses set the clock to their time.
+class ScriptedToolPoses : public ToolPoseSource {
+ public:
+  ScriptedToolPoses(std::vector<std::string> names, std::vector<ToolPoseStep> steps,
+                    ManualClock& clock)
+      : names_(std::move(names)), steps_(std::move(steps)), clock_(clock) {}
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<ToolPoseStep> steps_;
+  std::size_t next_ = 0;
+  ManualClock& clock_;
+
+  [[nodiscard]] std::span<const std::string> do_names() const override { return names_; }
+  Result<Next> do_next(ToolPoses& poses) override;
 };
 
 using DepthStep = std::variant<DepthFrame, Next, Error>;
@@ -120,6 +141,9 @@ struct Script {
   StereoCalibration calibration;
   std::vector<CameraStep> camera;
   std::vector<DepthScript> depth;
+  /// Named: it measures them itself and has no cameras.
+  std::vector<std::string> tools;
+  std::vector<ToolPoseStep> tool_poses;
   std::vector<HeadPose> head;
   std::vector<ClickerEvent> clicker;
   std::vector<Phrase> voice;
@@ -136,7 +160,10 @@ class FakeHeadset : public Headset {
   [[nodiscard]] std::string name() const override { return "fake"; }
   [[nodiscard]] const Clock& clock() const override { return clock_; }
   [[nodiscard]] std::int64_t epoch_ticks_100ns() const override { return epoch_ticks_100ns_; }
-  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] StereoCamera* cameras() override { return measures_tools() ? nullptr : &cameras_; }
+  [[nodiscard]] ToolPoseSource* tool_poses() override {
+    return measures_tools() ? &tool_poses_ : nullptr;
+  }
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
@@ -145,9 +172,12 @@ class FakeHeadset : public Headset {
   [[nodiscard]] ManualClock& manual_clock() { return clock_; }
 
  private:
+  [[nodiscard]] bool measures_tools() const { return !tool_poses_.names().empty(); }
+
   std::int64_t epoch_ticks_100ns_;
   ManualClock clock_;
   ScriptedCamera cameras_;
+  ScriptedToolPoses tool_poses_;
   std::vector<std::unique_ptr<ScriptedDepth>> depth_;
   ScriptedHead head_;
   ScriptedClicker clicker_;

@@ -186,7 +186,7 @@ class ConnectedHeadset final : public Hl2ssHeadset {
   [[nodiscard]] std::string name() const override { return "hl2ss://" + net::before_port(host_); }
   [[nodiscard]] const Clock& clock() const override { return receiver_->clock(); }
   [[nodiscard]] std::int64_t epoch_ticks_100ns() const override { return epoch_ticks_; }
-  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] StereoCamera* cameras() override { return &cameras_; }
   [[nodiscard]] HeadTracker& head() override { return receiver_->head(); }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }

@@ -117,22 +117,29 @@ std::optional<std::string> PoseFrames::take_complaint() {
 
 void PoseFrames::note(std::size_t tool, const SentPose& pose, Timestamp time) {
   Told& told = told_[tool];
-  if (!told.ever || told.pose != pose.rig_from_marker) {
+  if (!told.ever || told.pose != pose.world_from_marker) {
     told.since = time;
   }
   told.ever = true;
   told.now = true;
-  told.pose = pose.rig_from_marker;
+  told.pose = pose.world_from_marker;
+}
+
+ToolPoses PoseFrames::empty_frame(Timestamp time) const {
+  ToolPoses frame;
+  frame.time = time;
+  frame.tools.resize(told_.size());
+  return frame;
 }
 
 void PoseFrames::close() {
-  PoseFrame frame{*open_, {}};
+  ToolPoses frame = empty_frame(*open_);
   for (std::size_t i = 0; i < told_.size(); ++i) {
     Told& told = told_[i];
     const bool frozen =
         options_.frozen_after > Duration::zero() && frame.time - told.since > options_.frozen_after;
     if (std::exchange(told.now, false) && told.pose && !frozen) {
-      frame.tools.push_back({i, *told.pose, options_.covariance});
+      frame.tools[i] = {*told.pose, frame.time, PoseStatus::kMeasured, options_.covariance};
     }
   }
   open_.reset();
@@ -140,7 +147,7 @@ void PoseFrames::close() {
   done_ = std::move(frame);
 }
 
-std::optional<PoseFrame> PoseFrames::next(Timestamp now) {
+std::optional<ToolPoses> PoseFrames::next(Timestamp now) {
   if (open_ && now - opened_at_ >= kWaitForRest) {
     close();
   }
@@ -150,7 +157,7 @@ std::optional<PoseFrame> PoseFrames::next(Timestamp now) {
     heard_at_ = now;
     if (!last_ || then > *last_) {
       last_ = then;
-      return PoseFrame{then, {}};
+      return empty_frame(then);
     }
   }
   return std::exchange(done_, std::nullopt);

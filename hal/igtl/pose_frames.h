@@ -8,7 +8,7 @@
 
 #include "base/result.h"
 #include "base/time.h"
-#include "hal/api/measured_tool.h"
+#include "hal/api/tool_pose_source.h"
 #include "hal/igtl/pose_message.h"
 
 namespace orthonav::igtl {
@@ -28,12 +28,6 @@ struct NamedTransform {
   std::string transform;
 };
 
-/// Tools of one moment.
-struct PoseFrame {
-  Timestamp time{};
-  std::vector<MeasuredTool> tools;
-};
-
 struct PoseFramesOptions {
   std::vector<NamedTransform> tools;
   PoseCovariance covariance{};  ///< as stated for every tool
@@ -51,7 +45,8 @@ class PoseFrames {
   static constexpr Duration kSentOtherwise = std::chrono::seconds(1);
   /// How long a frame waits for tools that may be out of sight.
   static constexpr Duration kWaitForRest = std::chrono::milliseconds(10);
-  /// After this long without a pose no tool is in sight, which is reported by frames without tools.
+  /// After this long without a pose no tool is in sight, which is reported by frames in which all
+  /// are lost.
   static constexpr Duration kNobodyInSight = std::chrono::milliseconds(100);
 
   explicit PoseFrames(PoseFramesOptions options);
@@ -61,7 +56,7 @@ class PoseFrames {
   /// The newest frame that is complete by `now` and was not handed out yet. A frame is complete
   /// when all tools are in it, a later moment has begun, or it has waited long enough. Times
   /// strictly increase.
-  [[nodiscard]] std::optional<PoseFrame> next(Timestamp now);
+  [[nodiscard]] std::optional<ToolPoses> next(Timestamp now);
   /// The name of a transform that is a tool's pose in another frame than asked for, where that tool
   /// is not sent otherwise: each tool once, until `forget`.
   [[nodiscard]] std::optional<std::string> take_complaint();
@@ -79,7 +74,7 @@ class PoseFrames {
   struct Told {
     bool ever = false;
     bool now = false;  ///< in the frame being assembled
-    std::optional<Transform<Rig, Marker>> pose;
+    std::optional<Transform<World, Marker>> pose;
     Timestamp since{};  ///< when this identical pose first arrived
     std::string of;     ///< as its transform's name says; empty: it does not
     std::optional<Timestamp> heard_at;
@@ -88,13 +83,15 @@ class PoseFrames {
   [[nodiscard]] std::optional<std::size_t> tool_of(const std::string& transform);
   void look_for_tool_elsewhere(const std::string& transform, Timestamp now);
   void close();
+  /// All tools lost.
+  [[nodiscard]] ToolPoses empty_frame(Timestamp time) const;
   void note(std::size_t tool, const SentPose& pose, Timestamp time);
 
   PoseFramesOptions options_;
   std::vector<Told> told_;
   std::optional<Timestamp> open_;  ///< the moment being assembled
   Timestamp opened_at_{};
-  std::optional<PoseFrame> done_;
+  std::optional<ToolPoses> done_;
   std::optional<Timestamp> last_;  ///< of the newest complete frame
   Timestamp heard_at_{};
   std::int64_t out_of_order_ = 0;

@@ -30,7 +30,7 @@ Result<SentPose> checked_pose(const std::string& name, const Mat3& rotation, Vec
     return SentPose{name, std::nullopt};
   }
   const Vec3 translation_m = translation_mm * kMetresPerMm;
-  const auto pose = Transform<Rig, Marker>::checked(rotation, translation_m, kMaxSkew);
+  const auto pose = Transform<World, Marker>::checked(rotation, translation_m, kMaxSkew);
   if (!pose) {
     return Error{name + ": " + pose.error().message};
   }

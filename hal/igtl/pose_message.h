@@ -15,7 +15,7 @@ struct SentPose {
   std::string name;  ///< `ProbeToTracker`, at most 20 bytes
   /// Absent if the sender marks it as unknown: by its status, or by an exact identity, which
   /// PlusServer sends for a tool out of sight.
-  std::optional<Transform<Rig, Marker>> rig_from_marker;
+  std::optional<Transform<World, Marker>> world_from_marker;
 };
 
 /// Whether a message of this type holds poses: TRANSFORM, TDATA or QTDATA.

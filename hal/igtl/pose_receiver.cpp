@@ -173,7 +173,7 @@ void PoseReceiver::lose(const std::string& why, HostTime now) {
   to_tell_.assign(1, {"igtl: " + options_.host + ": connection lost: " + why, ErrorCode::kLost});
 }
 
-void PoseReceiver::publish(const PoseFrame& frame) {
+void PoseReceiver::publish(const ToolPoses& frame) {
   const MutexLock lock(mutex_);
   dropped_ += waiting_ ? 1 : 0;
   ++frames_out_;
@@ -193,7 +193,7 @@ void PoseReceiver::tell() {
   }
 }
 
-Result<Next> PoseReceiver::next(StereoFrame& frame) {
+Result<Next> PoseReceiver::next(ToolPoses& poses) {
   const MutexLock lock(mutex_);
   if (!died_) {
     return died_.error();
@@ -206,15 +206,12 @@ Result<Next> PoseReceiver::next(StereoFrame& frame) {
   if (!waiting_) {
     return Next::kNone;
   }
-  frame.left.clear();
-  frame.right.clear();
-  frame.sequence = ++sequence_;
-  frame.map_epoch = map_epoch_;
-  frame.time = waiting_->time;
+  poses.sequence = ++sequence_;
+  poses.map_epoch = map_epoch_;
+  poses.time = waiting_->time;
   // The tracker's frame is World and does not move.
-  frame.world_from_rig = Transform<World, Rig>{};
-  frame.head_covariance.reset();
-  frame.tools.assign(waiting_->tools.begin(), waiting_->tools.end());
+  poses.world_from_rig = Transform<World, Rig>{};
+  poses.tools.assign(waiting_->tools.begin(), waiting_->tools.end());
   waiting_.reset();
   return Next::kFrame;
 }

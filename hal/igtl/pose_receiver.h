@@ -40,10 +40,10 @@ class PoseReceiver final : private MessageReader {
   PoseReceiver& operator=(const PoseReceiver&) = delete;
 
   [[nodiscard]] const Clock& clock() const { return clock_; }
-  /// As StereoCamera::do_next. An Error once for each lost connection, for each time that the
+  /// As ToolPoseSource::do_next. An Error once for each lost connection, for each time that the
   /// sender's clock was set, and for each tool that comes in another frame than asked for; at every
   /// call after the receiver's thread has ended.
-  Result<Next> next(StereoFrame& frame) ORTHONAV_EXCLUDES(mutex_);
+  Result<Next> next(ToolPoses& poses) ORTHONAV_EXCLUDES(mutex_);
   /// Time of the newest frame.
   [[nodiscard]] std::optional<Timestamp> newest() const ORTHONAV_EXCLUDES(mutex_);
   /// Whether a pose of any tool has arrived.
@@ -60,7 +60,7 @@ class PoseReceiver final : private MessageReader {
   void begin_connection() ORTHONAV_EXCLUDES(mutex_);
   void complain(const std::string& what) ORTHONAV_EXCLUDES(mutex_);
   void lose(const std::string& why, HostTime now) ORTHONAV_EXCLUDES(mutex_);
-  void publish(const PoseFrame& frame) ORTHONAV_EXCLUDES(mutex_);
+  void publish(const ToolPoses& frame) ORTHONAV_EXCLUDES(mutex_);
   void tell() ORTHONAV_EXCLUDES(mutex_);
   [[nodiscard]] bool wants(const Header& header) const override { return holds_poses(header.type); }
   Status read(const Header& header, Bytes body) override ORTHONAV_EXCLUDES(mutex_);
@@ -81,7 +81,7 @@ class PoseReceiver final : private MessageReader {
   net::RateLimit bytes_;
 
   mutable Mutex mutex_;
-  std::optional<PoseFrame> waiting_ ORTHONAV_GUARDED_BY(mutex_);
+  std::optional<ToolPoses> waiting_ ORTHONAV_GUARDED_BY(mutex_);
   std::optional<Timestamp> newest_ ORTHONAV_GUARDED_BY(mutex_);
   std::vector<Error> to_tell_ ORTHONAV_GUARDED_BY(mutex_);
   Status died_ ORTHONAV_GUARDED_BY(mutex_);  ///< why its thread ended

@@ -14,22 +14,20 @@ namespace {
 /// Latency of an ordinary monitor on which the operation is watched; a tracker has no display.
 constexpr Duration kDisplayLatency = std::chrono::milliseconds(16);
 
-class Poses final : public StereoCamera {
+class Poses final : public ToolPoseSource {
  public:
   Poses(PoseReceiver& receiver, const std::vector<NamedTransform>& tools) : receiver_(receiver) {
     for (const NamedTransform& each : tools) {
-      tools_.push_back(each.tool);
+      names_.push_back(each.tool);
     }
   }
 
  private:
-  [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
-  [[nodiscard]] std::span<const std::string> do_measured_tools() const override { return tools_; }
-  Result<Next> do_next(StereoFrame& frame) override { return receiver_.next(frame); }
+  [[nodiscard]] std::span<const std::string> do_names() const override { return names_; }
+  Result<Next> do_next(ToolPoses& poses) override { return receiver_.next(poses); }
 
   PoseReceiver& receiver_;
-  StereoCalibration calibration_;  ///< without cameras
-  std::vector<std::string> tools_;
+  std::vector<std::string> names_;
 };
 
 /// The tracker does not move: its frame is both Rig and World.
@@ -63,7 +61,8 @@ class TrackerHeadset final : public Headset {
         head_(*receiver_) {}
   [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] const Clock& clock() const override { return receiver_->clock(); }
-  [[nodiscard]] StereoCamera& cameras() override { return poses_; }
+  [[nodiscard]] StereoCamera* cameras() override { return nullptr; }
+  [[nodiscard]] ToolPoseSource* tool_poses() override { return &poses_; }
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return button_; }
   [[nodiscard]] Voice& voice() override { return voice_; }

@@ -155,9 +155,10 @@ Result<OpenedHeadset> open_openxr(const std::string& uri, std::string_view rest,
   if (!cameras) {
     return cameras.error();
   }
-  if (!cameras->headset->cameras().calibration().has_images()) {
-    return bad_uri(uri, cameras->headset->name() +
-                            " has no cameras, and its place in the display's map is unknown");
+  if (cameras->headset->cameras() == nullptr || cameras->headset->tool_poses() != nullptr) {
+    return bad_uri(uri,
+                   cameras->headset->name() +
+                       " measures tools itself, and its place in the display's map is unknown");
   }
   return OpenedHeadset{{openxr::OpenxrHeadset::around(std::move(cameras->headset), rig),
                         std::move(cameras->warning)},

@@ -114,7 +114,7 @@ class Composite : public OpenxrHeadset {
       : OpenxrHeadset(*cameras),
         inner_(std::move(cameras)),
         pixels_(mount_of(rig), inner_->clock(), inner_->head()),
-        cameras_(inner_->cameras(), pixels_, rig.mounted),
+        cameras_(*inner_->cameras(), pixels_, rig.mounted),
         head_(inner_->head(), pixels_, cameras_, rig.mounted),
         clicker_(pixels_, inner_->clicker()),
         mounted_(rig.mounted) {}
@@ -124,7 +124,7 @@ class Composite : public OpenxrHeadset {
     return "openxr (" + (runtime.empty() ? "" : runtime + ", ") + "cameras: " + inner_->name() +
            ")";
   }
-  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] StereoCamera* cameras() override { return &cameras_; }
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Duration display_latency() const override {

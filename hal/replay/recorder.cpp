@@ -366,7 +366,7 @@ class Recorder : public RecordingHeadset {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] StereoCamera* cameras() override { return &cameras_; }
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
@@ -389,7 +389,7 @@ class Recorder : public RecordingHeadset {
   RecordingSink tape_;
   RecordingDepths drained_;
   RecordingDepths passed_on_;
-  RecordingCamera cameras_{inner_.cameras(), tape_, drained_};
+  RecordingCamera cameras_{*inner_.cameras(), tape_, drained_};
   RecordingHead head_{inner_, tape_};
   RecordingEvents<Clicker, ClickerEvent> clicker_;
   RecordingEvents<Voice, Phrase> voice_;
@@ -398,17 +398,18 @@ class Recorder : public RecordingHeadset {
 Result<std::unique_ptr<RecordingHeadset>> make(Headset& inner, std::unique_ptr<Headset> owned,
                                                const std::filesystem::path& folder,
                                                const RecorderOptions& options) {
-  if (!inner.cameras().calibration().has_images()) {
+  if (inner.cameras() == nullptr || inner.tool_poses() != nullptr) {
     return Error{folder.string() + ": " + inner.name() +
-                 " has no cameras, and what is recorded is their images"};
+                 (inner.cameras() == nullptr ? " has no cameras" : " measures tools itself") +
+                 ", and what is recorded is the images in which tools are found"};
   }
   RecordedDevice device;
   device.epoch_ticks_100ns = inner.epoch_ticks_100ns();
   device.display_latency = inner.display_latency();
   device.clock_start = inner.clock().now();
-  device.may_repeat = inner.cameras().may_repeat();
+  device.may_repeat = inner.cameras()->may_repeat();
   auto writer =
-      RecordingWriter::create(folder, inner.cameras().calibration(), device, options.tools_json);
+      RecordingWriter::create(folder, inner.cameras()->calibration(), device, options.tools_json);
   if (!writer) {
     return writer.error();
   }

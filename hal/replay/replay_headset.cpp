@@ -159,7 +159,7 @@ class Replay : public ReplayHeadset {
   [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
     return recording_.epoch_ticks_100ns;
   }
-  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] StereoCamera* cameras() override { return &cameras_; }
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }

@@ -61,7 +61,7 @@ enum class RecordedStamps {
 
 /// How fast a recording is replayed.
 enum class ReplayPace {
-  kFast,      ///< a pair at each call of cameras().next(); the clock is the time of the last one.
+  kFast,      ///< a pair at each call of cameras()->next(); the clock is the time of the last one.
               ///< Depth comes when a pair has brought the clock that far; once the pairs have
               ///< ended, the depth that is left brings the clock on
   kRealtime,  ///< the clock goes on as the wall's; who asks late misses pairs, as with a camera

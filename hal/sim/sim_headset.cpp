@@ -107,7 +107,7 @@ class SimulatedHeadset final : public SimHeadset {
 
   [[nodiscard]] std::string name() const override { return "simulated operating room"; }
   [[nodiscard]] const Clock& clock() const override { return room_.clock; }
-  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] StereoCamera* cameras() override { return &cameras_; }
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }

@@ -15,7 +15,8 @@
 namespace orthonav::sim {
 
 enum class Pace {
-  kFast,  ///< the clock advances by one frame at each call of cameras().next(); as fast as possible
+  kFast,     ///< the clock advances by one frame at each call of cameras()->next(); as fast as
+             ///< possible
   kRealtime  ///< the clock follows wall time; next() returns kNone until the next frame is due
 };
 
@@ -67,7 +68,7 @@ struct SimOptions {
 
 /// The simulated operating room as a headset. The same seed gives the same bits, provided frames
 /// are shown at the same moments. Parts may be used from different threads; `truth` may be read
-/// only while no thread calls `cameras().next`. Tools are described as a planning file would
+/// only while no thread calls `cameras()->next`. Tools are described as a planning file would
 /// describe them: slightly off by the error model. The stream ends half a second after the surgeon
 /// has seen the last step (`done`).
 class SimHeadset : public Headset {
@@ -84,7 +85,7 @@ class SimHeadset : public Headset {
   /// in World; the identity for a pair of more than some seconds ago.
   [[nodiscard]] virtual Transform<World, World> actual_from_reported(Timestamp pair) const = 0;
   [[nodiscard]] virtual const RoomDescription& room() const = 0;
-  /// Its true cameras; `cameras().calibration()` is what the device reports.
+  /// Its true cameras; `cameras()->calibration()` is what the device reports.
   [[nodiscard]] virtual const StereoCalibration& actual_calibration() const = 0;
   /// What it was opened with.
   [[nodiscard]] virtual const SimOptions& options() const = 0;

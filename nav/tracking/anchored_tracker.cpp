@@ -36,25 +36,11 @@ class AnchoredTracker final : public ToolTracker {
   }
 
   std::span<const ToolState> track(const StereoFrame& frame) override {
-    const std::span<const ToolState> seen = tracker_->track(frame);
-    states_.assign(seen.begin(), seen.end());
-    const Reference* best = frame.world_from_rig ? best_in_sight(seen) : nullptr;
-    anchor_.in_sight = best != nullptr;
-    if (best != nullptr) {
-      const PairPose& reference = *seen[best->tool].pair;
-      const Transform<World, Rig> anchored_from_rig =
-          *best->anchored_from_marker * reference.rig_from_marker.inverse();
-      anchor_.last_seen = frame.time;
-      anchor_.world_from_anchored = *frame.world_from_rig * anchored_from_rig.inverse();
-      watch(seen, *best, anchored_from_rig, frame);
-      measure(seen, *best, anchored_from_rig, frame);
-    }
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-      if (best == nullptr || !seen[i].pair) {
-        predict(i, frame);
-      }
-    }
-    return states_;
+    return anchored(tracker_->track(frame), frame.time, frame.world_from_rig, true);
+  }
+  std::span<const ToolState> take(const ToolPoses& poses) override {
+    // What they have in common is World itself.
+    return anchored(tracker_->take(poses), poses.time, Transform<World, Rig>{}, false);
   }
 
   [[nodiscard]] std::span<const ToolGeometry> tools() const override { return tracker_->tools(); }
@@ -71,10 +57,33 @@ class AnchoredTracker final : public ToolTracker {
     return tracker_->tag_size_difference_sd(tool, other);
   }
   [[nodiscard]] const SeenTags* seen_tags() const override { return tracker_->seen_tags(); }
-  [[nodiscard]] bool follows_tools() const override { return tracker_->follows_tools(); }
   [[nodiscard]] const Anchor* anchor() const override { return &anchor_; }
 
  private:
+  /// `filters`: whether poses are filtered over moments.
+  std::span<const ToolState> anchored(std::span<const ToolState> seen, Timestamp time,
+                                      const std::optional<Transform<World, Rig>>& world_from_rig,
+                                      bool filters) {
+    states_.assign(seen.begin(), seen.end());
+    const Reference* best = world_from_rig ? best_in_sight(seen) : nullptr;
+    anchor_.in_sight = best != nullptr;
+    if (best != nullptr) {
+      const PairPose& reference = *seen[best->tool].pair;
+      const Transform<World, Rig> anchored_from_rig =
+          *best->anchored_from_marker * reference.rig_from_marker.inverse();
+      anchor_.last_seen = time;
+      anchor_.world_from_anchored = *world_from_rig * anchored_from_rig.inverse();
+      watch(seen, *best, anchored_from_rig, time);
+      measure(seen, *best, anchored_from_rig, time, filters);
+    }
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      if (best == nullptr || !seen[i].pair) {
+        predict(i, time);
+      }
+    }
+    return states_;
+  }
+
   /// The most certain of those that count; the very first one seen counts at once and defines the
   /// anchored World.
   const Reference* best_in_sight(std::span<const ToolState> seen) {
@@ -103,7 +112,7 @@ class AnchoredTracker final : public ToolTracker {
   /// Checks the other visible references: those that count must be where they were; the others are
   /// learnt.
   void watch(std::span<const ToolState> seen, const Reference& best,
-             const Transform<World, Rig>& anchored_from_rig, const StereoFrame& frame) {
+             const Transform<World, Rig>& anchored_from_rig, Timestamp time) {
     bool moved = false;
     for (Reference& other : references_) {
       const auto& pair = seen[other.tool].pair;
@@ -113,7 +122,7 @@ class AnchoredTracker final : public ToolTracker {
       const Transform<World, Marker> here = anchored_from_rig * pair->rig_from_marker;
       if (!other.anchored_from_marker) {
         learn(other,
-              {here, frame.time, PoseStatus::kMeasured,
+              {here, time, PoseStatus::kMeasured,
                rotated(relative_covariance(*pair, *seen[best.tool].pair),
                        anchored_from_rig.rotation())},
               pair->exposure_s);
@@ -162,7 +171,7 @@ class AnchoredTracker final : public ToolTracker {
   }
 
   void measure(std::span<const ToolState> seen, const Reference& best,
-               const Transform<World, Rig>& anchored_from_rig, const StereoFrame& frame) {
+               const Transform<World, Rig>& anchored_from_rig, Timestamp time, bool filters) {
     const PairPose& reference = *seen[best.tool].pair;
     for (std::size_t i = 0; i < states_.size(); ++i) {
       const auto& pair = seen[i].pair;
@@ -172,14 +181,14 @@ class AnchoredTracker final : public ToolTracker {
       const bool is_anchor = i == best.tool;
       const PoseCovariance in_rig =
           is_anchor ? pair->covariance : relative_covariance(*pair, reference);
-      const TrackedPose measured{anchored_from_rig * pair->rig_from_marker, frame.time,
+      const TrackedPose measured{anchored_from_rig * pair->rig_from_marker, time,
                                  PoseStatus::kMeasured,
                                  rotated(in_rig, anchored_from_rig.rotation())};
-      if (is_anchor || !tracker_->follows_tools()) {
+      if (is_anchor || !filters) {
         states_[i].world_from_marker = measured;
         continue;
       }
-      if (!filters_[i].follows(frame.time, coast_)) {
+      if (!filters_[i].follows(time, coast_)) {
         filters_[i].stop();
       }
       filters_[i].update(measured, pair->exposure_s);
@@ -187,12 +196,12 @@ class AnchoredTracker final : public ToolTracker {
     }
   }
 
-  void predict(std::size_t i, const StereoFrame& frame) {
+  void predict(std::size_t i, Timestamp time) {
     TrackedPose& state = states_[i].world_from_marker;
     state = {};
-    state.time = frame.time;
-    if (filters_[i].follows(frame.time, coast_)) {
-      state = filters_[i].predicted(frame.time);
+    state.time = time;
+    if (filters_[i].follows(time, coast_)) {
+      state = filters_[i].predicted(time);
     }
   }
 

@@ -17,9 +17,9 @@ inline constexpr int kReferenceMovedPairs = 10;
 /// Tracks with `tracker`, and gives poses relative to the patient references among its tools, from
 /// a tool and a reference in the same pair, so that motion of head, map and patient cancels. The
 /// covariances combine those of the two poses, the reference's at the lever arm to the tool.
-/// Without a visible reference the tools are predicted for `coast`, then lost; if `tracker` does
-/// not filter (`follows_tools`), nothing is filtered or predicted. `known`: where references lie in
-/// the World of a resumed operation; no reference then defines a new World. Refuses tools without a
+/// Without a visible reference the tools are predicted for `coast`, then lost; of poses that a
+/// device measured (`take`) nothing is filtered or predicted. `known`: where references lie in the
+/// World of a resumed operation; no reference then defines a new World. Refuses tools without a
 /// reference, and a place for a tool that is not one. `tracker` must give the poses of single pairs
 /// (`ToolState::pair`).
 Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(

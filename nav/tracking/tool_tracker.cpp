@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/check.h"
 #include "base/joined.h"
 #include "nav/tracking/marker_detector.h"
 #include "nav/tracking/pose_filter.h"
@@ -35,6 +36,11 @@ Status check(const StereoCalibration& calibration, const std::vector<ToolGeometr
   if (options.coast < Duration::zero()) {
     return Error{"tracker: coast is negative"};
   }
+  return {};
+}
+
+std::span<const ToolState> ToolTracker::take(const ToolPoses& /*poses*/) {
+  ORTHONAV_CHECK(false);  // it tracks through pairs
   return {};
 }
 
@@ -419,12 +425,12 @@ class PhotometricTracker final : public ToolTracker {
                                                pose->rig_from_marker.translation());
         const Transform<Rig, Marker> start = rig_from_tag * tag_from_marker;
         const double doubt_m = kDetectedDoubtPx * pixel_m(pose->rig_from_marker);
-        if (take(i, frame, start, doubt_m)) {
+        if (fit_from(i, frame, start, doubt_m)) {
           return true;
         }
         // A lamp or the exposure may have changed since the light on this tool was estimated.
         trails_[i].follower.forget();
-        if (take(i, frame, start, doubt_m)) {
+        if (fit_from(i, frame, start, doubt_m)) {
           return true;
         }
       }
@@ -436,7 +442,7 @@ class PhotometricTracker final : public ToolTracker {
                        match.left == nullptr, tag.size_m);
       for (std::size_t k = 0; poses && k < poses->size(); ++k) {
         const Transform<Rig, Marker> start = (*poses)[k] * tag_from_marker;
-        if (take(i, frame, start, kOneCameraDoubtPx * pixel_m(start), true)) {
+        if (fit_from(i, frame, start, kOneCameraDoubtPx * pixel_m(start), true)) {
           return true;
         }
       }
@@ -450,8 +456,8 @@ class PhotometricTracker final : public ToolTracker {
 
   /// Fits the pose of a tool, starting from `expected`, and measures it if the pictures agree.
   /// `by_both`: it counts only if both cameras saw it.
-  bool take(std::size_t i, const StereoFrame& frame, const Transform<Rig, Marker>& expected,
-            double doubt_m, bool by_both = false) {
+  bool fit_from(std::size_t i, const StereoFrame& frame, const Transform<Rig, Marker>& expected,
+                double doubt_m, bool by_both = false) {
     const auto fit = trails_[i].follower.follow(frame, expected, doubt_m, solver_, search_);
     if (!fit || (by_both && !(fit->left && fit->right))) {
       return false;

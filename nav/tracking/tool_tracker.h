@@ -12,6 +12,7 @@
 #include "base/tracked.h"
 #include "base/transform.h"
 #include "hal/api/devices.h"
+#include "hal/api/tool_pose_source.h"
 #include "nav/tracking/marker_detector.h"
 #include "nav/tracking/online_calibration.h"
 #include "nav/tracking/tool.h"
@@ -100,8 +101,11 @@ struct TrackerOptions {
 class ToolTracker {
  public:
   virtual ~ToolTracker() = default;
-  /// One state for each tool, in the order of the tools.
+  /// One state for each tool, in the order of the tools, after a stereo pair.
   virtual std::span<const ToolState> track(const StereoFrame& frame) = 0;
+  /// The same after poses that a device measured itself, which are neither filtered nor predicted.
+  /// Only a tracker made for them takes them, and no pairs; anything else is a bug of the caller.
+  virtual std::span<const ToolState> take(const ToolPoses& poses);
   [[nodiscard]] virtual std::span<const ToolGeometry> tools() const = 0;
   /// How the two cameras appear to be rotated relative to their reported calibration; nothing from
   /// a method that does not estimate it, or before it is known.
@@ -124,9 +128,6 @@ class ToolTracker {
   }
   /// The tags that searches of whole images found, those of no tool as well; null: none are made.
   [[nodiscard]] virtual const SeenTags* seen_tags() const { return nullptr; }
-  /// Whether it filters poses over pairs and predicts missing ones. If not, poses come from another
-  /// program and are passed on unchanged.
-  [[nodiscard]] virtual bool follows_tools() const { return true; }
   /// The patient references to which its poses are relative (`create_anchored_tracker`); null:
   /// poses are in the headset's map.
   [[nodiscard]] virtual const Anchor* anchor() const { return nullptr; }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/check.h"
 #include "base/joined.h"
-#include "nav/tracking/tag_pose.h"
 
 namespace orthonav::nav {
 namespace {
@@ -14,18 +14,23 @@ class TrackerOfPoses final : public ToolTracker {
   TrackerOfPoses(std::vector<ToolGeometry> tools, std::vector<std::size_t> tool_of)
       : tools_(std::move(tools)), tool_of_(std::move(tool_of)), states_(tools_.size()) {}
 
-  std::span<const ToolState> track(const StereoFrame& frame) override {
+  std::span<const ToolState> track(const StereoFrame& /*frame*/) override {
+    ORTHONAV_CHECK(false);  // it finds nothing in pictures
+    return {};
+  }
+  std::span<const ToolState> take(const ToolPoses& poses) override {
     for (std::size_t i = 0; i < states_.size(); ++i) {
       states_[i] = {};
       states_[i].tool = i;
-      states_[i].world_from_marker.time = frame.time;
+      states_[i].world_from_marker.time = poses.time;
     }
-    if (!frame.world_from_rig) {
-      return states_;
-    }
-    for (const MeasuredTool& measured : frame.tools) {
-      if (measured.tool < tool_of_.size()) {
-        take(measured, frame);
+    for (std::size_t i = 0; i < tool_of_.size() && i < poses.tools.size(); ++i) {
+      const TrackedPose& measured = poses.tools[i];
+      if (measured.status == PoseStatus::kMeasured) {
+        ToolState& state = states_[tool_of_[i]];
+        state.world_from_marker = measured;
+        state.rig_from_marker = {measured.value.rotation(), measured.value.translation()};
+        state.pair = PairPose{state.rig_from_marker, measured.covariance, 0.0};
       }
     }
     return states_;
@@ -35,20 +40,8 @@ class TrackerOfPoses final : public ToolTracker {
                                               std::size_t /*other*/) const override {
     return 0.0;  // there are no tags
   }
-  [[nodiscard]] bool follows_tools() const override { return false; }
 
  private:
-  void take(const MeasuredTool& measured, const StereoFrame& frame) {
-    ToolState& state = states_[tool_of_[measured.tool]];
-    const Transform<World, Rig>& world_from_rig = *frame.world_from_rig;
-    state.rig_from_marker = measured.rig_from_marker;
-    state.world_from_marker = {world_from_rig * measured.rig_from_marker, frame.time,
-                               PoseStatus::kMeasured,
-                               rotated(measured.covariance, world_from_rig.rotation())};
-    state.pair = PairPose{measured.rig_from_marker, measured.covariance, 0.0};
-    add_head(state, frame);
-  }
-
   std::vector<ToolGeometry> tools_;
   std::vector<std::size_t> tool_of_;  ///< for each tool that the device names
   std::vector<ToolState> states_;

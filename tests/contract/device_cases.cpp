@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <set>
+#include <thread>
 
+#include "base/stopwatch.h"
 #include "hal/api/forwarding_headset.h"
 #include "hal/fake/failing.h"
 #include "hal/hl2ss/server/server.h"
@@ -21,6 +24,7 @@
 #include "tests/support/camera_scene.h"
 #include "tests/support/depth_scene.h"
 #include "tests/support/event_file.h"
+#include "tests/support/pose_server.h"
 #include "tests/support/scripted_session.h"
 #include "tests/support/session_log.h"
 #include "tests/support/stream_recorder_folder.h"
@@ -53,13 +57,13 @@ class Prompting : public ForwardingHeadset {
  public:
   Prompting(std::unique_ptr<Headset> inner, engine::StepOnDisplay step)
       : ForwardingHeadset(*inner), inner_(std::move(inner)), cameras_(*inner_, std::move(step)) {}
-  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] StereoCamera* cameras() override { return &cameras_; }
 
  private:
   class Cameras : public ForwardingCamera {
    public:
     Cameras(Headset& inner, engine::StepOnDisplay step)
-        : ForwardingCamera(inner.cameras()), inner_(inner), step_(std::move(step)) {}
+        : ForwardingCamera(*inner.cameras()), inner_(inner), step_(std::move(step)) {}
 
    private:
     Result<Next> do_next(StereoFrame& frame) override {
@@ -154,8 +158,8 @@ std::unique_ptr<Headset> open_sim_with_depth() {
 class Waiting : public ForwardingHeadset {
  public:
   explicit Waiting(std::unique_ptr<Headset> inner)
-      : ForwardingHeadset(*inner), inner_(std::move(inner)), cameras_(inner_->cameras()) {}
-  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+      : ForwardingHeadset(*inner), inner_(std::move(inner)), cameras_(*inner_->cameras()) {}
+  [[nodiscard]] StereoCamera* cameras() override { return &cameras_; }
 
  private:
   class Cameras : public ForwardingCamera {
@@ -232,6 +236,79 @@ std::size_t depth_cameras_of(const std::string& name) {
   return with_depth.count(name) == 0 ? 0 : 2;
 }
 
+/// Two tools, of which the second is out of sight now and then.
+std::unique_ptr<Headset> open_scripted_tools() {
+  fake::Script script;
+  script.tools = {"pointer", "reference"};
+  for (int i = 0; i < 12; ++i) {
+    ToolPoses poses;
+    poses.sequence = i;
+    poses.time = scripted_time(i);
+    poses.world_from_rig = Transform<World, Rig>{};
+    poses.tools.resize(2);
+    for (std::size_t tool = 0; tool < (i % 4 == 3 ? 1u : 2u); ++tool) {
+      poses.tools[tool] = {{Mat3::identity(), {0.001 * i, 0.1 * static_cast<double>(tool), 1.0}},
+                           poses.time,
+                           PoseStatus::kMeasured,
+                           {}};
+      poses.tools[tool].covariance[0] = 1e-8;
+    }
+    script.tool_poses.emplace_back(poses);
+    if (i == 5) {
+      script.tool_poses.emplace_back(Next::kNone);
+    }
+  }
+  return std::make_unique<fake::FakeHeadset>(std::move(script));
+}
+
+std::unique_ptr<Headset> open_tools_with_allowed_faults() {
+  auto inner = open_scripted_tools();
+  fake::Faults faults;
+  faults.tool_poses = {{1, fake::ToolPoseFault::kLost},
+                       {2, fake::ToolPoseFault::kDrop},
+                       {4, fake::ToolPoseFault::kDelay}};
+  auto failing = std::make_unique<fake::FailingHeadset>(*inner, std::move(faults));
+  return keeping(std::move(inner), std::move(failing));
+}
+
+/// Sends two tools until it ends.
+class Sender {
+ public:
+  Sender()
+      : thread_([this] {
+          double stamp_s = 1.7e9;
+          const Stopwatch watch;
+          while (!over_) {
+            stamp_s = 1.7e9 + 1e-3 * watch.elapsed_ms();
+            for (const char* tool : {"ProbeToTracker", "ReferenceToTracker"}) {
+              server_.add(tool, {Mat3::identity(), {1e-6 * watch.elapsed_ms(), 0.1, 1.0}}, stamp_s);
+            }
+            server_.send();
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          }
+        }) {}
+  ~Sender() {
+    over_ = true;
+    thread_.join();
+  }
+  Sender(const Sender&) = delete;
+  Sender& operator=(const Sender&) = delete;
+  [[nodiscard]] std::string uri() const {
+    return "igtl:" + server_.uri("pointer=ProbeToTracker&reference=ReferenceToTracker");
+  }
+
+ private:
+  PoseServer server_;
+  std::atomic<bool> over_ = false;
+  std::thread thread_;
+};
+
+std::unique_ptr<Headset> open_igtl() {
+  auto sender = std::make_unique<Sender>();
+  auto headset = checked(open_headset(sender->uri()));
+  return headset ? keeping(std::move(sender), std::move(headset)) : nullptr;
+}
+
 /// Opens what was recorded of a headset to its end, which is recorded once for all tests.
 std::unique_ptr<Headset> open_replayed(const std::string& name,
                                        const std::function<std::unique_ptr<Headset>()>& open) {
@@ -268,6 +345,14 @@ std::vector<DeviceCase> device_cases() {
        [] { return open_replayed("hl2ss", [] { return open_served_sim("raw"); }); }, false},
       {"surgeon", open_surgeon, true, false},
       {"replayed_surgeon", [] { return open_replayed("surgeon", open_surgeon); }, true, false}};
+  const std::pair<const char*, std::unique_ptr<Headset> (*)()> measuring[] = {
+      {"scripted_tools", open_scripted_tools},
+      {"tools_with_allowed_faults", open_tools_with_allowed_faults},
+      {"igtl", open_igtl}};
+  for (const auto& [name, open] : measuring) {
+    DeviceCase& device = cases.emplace_back(DeviceCase{name, open, false});
+    device.measures_tools = true;
+  }
   for (DeviceCase& device : cases) {
     device.depth_cameras = depth_cameras_of(device.name);
   }

@@ -20,6 +20,7 @@ struct DeviceCase {
   /// How far past the newest pair the head may already have been measured.
   Duration head_ahead{};
   std::size_t depth_cameras = 0;
+  bool measures_tools = false;  ///< itself, and has no cameras
 };
 inline void PrintTo(const DeviceCase& device, std::ostream* out) { *out << device.name; }
 

@@ -33,7 +33,7 @@ GreyImage first_image(const std::string& uri) {
   if (!headset) {
     return {};
   }
-  const auto answer = (*headset)->cameras().next(frame);
+  const auto answer = (*headset)->cameras()->next(frame);
   EXPECT_TRUE(answer.ok() && *answer == Next::kFrame);
   return frame.left;
 }

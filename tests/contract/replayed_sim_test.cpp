@@ -14,7 +14,7 @@ TEST(SimulatedSession, ReplaysToTheBit) {
   options.sim.limit_s = 0.5;
   auto sim = open_headset("sim:?seed=4", options);
   ASSERT_TRUE(sim.ok()) << sim.error().message;
-  const StereoCalibration calibration = (*sim)->cameras().calibration();
+  const StereoCalibration calibration = (*sim)->cameras()->calibration();
   auto recorder = replay::RecordingHeadset::create(*std::move(sim), folder / "session");
   ASSERT_TRUE(recorder.ok()) << recorder.error().message;
   const auto live = orthonav::test::play(**recorder);
@@ -22,7 +22,7 @@ TEST(SimulatedSession, ReplaysToTheBit) {
   ASSERT_GE(live.moments.size(), 10u);
   auto replayed = open_headset("replay:" + (folder / "session").string());
   ASSERT_TRUE(replayed.ok()) << replayed.error().message;
-  orthonav::test::expect_same((*replayed)->cameras().calibration(), calibration);
+  orthonav::test::expect_same((*replayed)->cameras()->calibration(), calibration);
   orthonav::test::expect_same(orthonav::test::play(**replayed), live);
 }
 

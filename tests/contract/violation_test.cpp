@@ -52,10 +52,10 @@ TEST_P(BrokenPair, LeavesAnEmptyFrame) {
   FakeHeadset inner(scripted_session());
   FailingHeadset failing(inner, {.camera = {{2, GetParam().fault}}});
   StereoFrame frame;
-  ASSERT_TRUE(failing.cameras().next(frame).ok());
-  ASSERT_TRUE(failing.cameras().next(frame).ok());
+  ASSERT_TRUE(failing.cameras()->next(frame).ok());
+  ASSERT_TRUE(failing.cameras()->next(frame).ok());
   EXPECT_EQ(frame.left.width_px, 640);
-  ASSERT_FALSE(failing.cameras().next(frame).ok());
+  ASSERT_FALSE(failing.cameras()->next(frame).ok());
   EXPECT_EQ(frame.left.width_px, 0);
   EXPECT_TRUE(frame.left.pixels.empty());
   EXPECT_TRUE(frame.right.pixels.empty());
@@ -78,6 +78,58 @@ INSTANTIATE_TEST_SUITE_P(
         CameraCase{"NanPose", CameraFault::kNanPose, "not a rigid motion"}),
     [](const auto& broken) { return broken.param.name; });
 
+struct ToolPoseCase {
+  std::string name;
+  ToolPoseFault fault;
+  std::string says;
+};
+
+class BrokenToolPoses : public ::testing::TestWithParam<ToolPoseCase> {};
+
+TEST_P(BrokenToolPoses, AreReportedByNameAndNotPassedOn) {
+  Script script;
+  script.tools = {"pointer", "guide"};
+  for (int i = 0; i < 5; ++i) {
+    ToolPoses poses;
+    poses.sequence = i;
+    poses.time = scripted_time(i);
+    poses.tools.assign(2, {{}, poses.time, PoseStatus::kMeasured, {}});
+    script.tool_poses.emplace_back(poses);
+  }
+  FakeHeadset inner(script);
+  FailingHeadset failing(inner, {.tool_poses = {{2, GetParam().fault}}});
+  ToolPoses poses;
+  std::vector<std::int64_t> passed_on;
+  std::vector<std::string> errors;
+  for (;;) {
+    const auto next = failing.tool_poses()->next(poses);
+    if (!next) {
+      errors.push_back(next.error().message);
+      EXPECT_TRUE(poses.tools.empty()) << "nothing of them is passed on";
+      continue;
+    }
+    if (*next == Next::kEnd) {
+      break;
+    }
+    passed_on.push_back(poses.sequence);
+  }
+  EXPECT_THAT(errors, ElementsAre(HasSubstr(GetParam().says)));
+  EXPECT_THAT(passed_on, ElementsAre(0, 1, 3, 4));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Every, BrokenToolPoses,
+    ::testing::Values(
+        ToolPoseCase{"Error", ToolPoseFault::kError, "simulated failure"},
+        ToolPoseCase{"OneLess", ToolPoseFault::kOneLess, "of 1 tools, names 2"},
+        ToolPoseCase{"Predicted", ToolPoseFault::kPredicted, "pose of guide"},
+        ToolPoseCase{"OtherTime", ToolPoseFault::kOtherTime, "is of another time"},
+        ToolPoseCase{"TimeBack", ToolPoseFault::kTimeBack, "does not come after"},
+        ToolPoseCase{"MirroredPose", ToolPoseFault::kMirroredPose, "not a rigid motion"},
+        ToolPoseCase{"NanPose", ToolPoseFault::kNanPose, "not a rigid motion"},
+        ToolPoseCase{"NegativeVariance", ToolPoseFault::kNegativeVariance, "negative variance"}),
+    [](const auto& broken) { return broken.param.name; });
+
 TEST(MapEpoch, ThatFallsIsReportedAndNotPassedOn) {
   Script script = scripted_session();
   std::int64_t number = 0;
@@ -90,7 +142,7 @@ TEST(MapEpoch, ThatFallsIsReportedAndNotPassedOn) {
   StereoFrame frame;
   int refused = 0;
   for (int call = 0; call < 4; ++call) {
-    const auto next = headset.cameras().next(frame);
+    const auto next = headset.cameras()->next(frame);
     if (next) {
       continue;
     }

@@ -57,9 +57,10 @@ Apart compare(hl2ss::VideoProfile profile, const sim::ErrorModel& error_model = 
   if (!headset) {
     return {};
   }
-  auto here = nav::create_photometric_tracker((*direct)->cameras().calibration(), built_in_tools());
+  auto here =
+      nav::create_photometric_tracker((*direct)->cameras()->calibration(), built_in_tools());
   auto there =
-      nav::create_photometric_tracker((*headset)->cameras().calibration(), built_in_tools());
+      nav::create_photometric_tracker((*headset)->cameras()->calibration(), built_in_tools());
   EXPECT_TRUE(here.ok() && there.ok());
   StereoFrame frame;
   StereoFrame expected;
@@ -67,13 +68,13 @@ Apart compare(hl2ss::VideoProfile profile, const sim::ErrorModel& error_model = 
   const auto next_pair = [&] {
     Result<Next> next = Next::kNone;
     EXPECT_TRUE(test::wait_until([&] {
-      next = (*headset)->cameras().next(frame);
+      next = (*headset)->cameras()->next(frame);
       return next && *next != Next::kNone;
     }));
     return next && *next == Next::kFrame;
   };
   while (next_pair()) {
-    EXPECT_TRUE((*direct)->cameras().next(expected).ok());
+    EXPECT_TRUE((*direct)->cameras()->next(expected).ok());
     EXPECT_EQ(frame.time, expected.time);
     const auto a = (*there)->track(frame);
     const auto b = (*here)->track(expected);

@@ -32,8 +32,19 @@ constexpr double kNoise_rad = 0.001;
 /// The pose of the tracker's own frame in the room.
 const Transform<World, Rig> kStand(rotation_from_vector({0.3, -1.2, 0.4}), {0.7, 1.1, -0.9});
 
+std::size_t measured(const ToolPoses& poses) {
+  return static_cast<std::size_t>(
+      std::count_if(poses.tools.begin(), poses.tools.end(),
+                    [](const auto& tool) { return tool.status == PoseStatus::kMeasured; }));
+}
+
+/// The tracker's own World is the frame of its stand in the room.
+Transform<Rig, Marker> rigged(const Transform<World, Marker>& pose) {
+  return {pose.rotation(), pose.translation()};
+}
+
 /// The simulated room, whose tools an optical tracker sees and whose images are not used.
-class TrackedRoom : public ForwardingHeadset, private StereoCamera {
+class TrackedRoom : public ForwardingHeadset, private ToolPoseSource {
  public:
   TrackedRoom(sim::SimHeadset& room, const std::vector<nav::ToolGeometry>& tools)
       : ForwardingHeadset(room), room_(room) {
@@ -51,20 +62,20 @@ class TrackedRoom : public ForwardingHeadset, private StereoCamera {
     tracker_ = igtl::open_tracker(options).value();
     first.join();
   }
-  [[nodiscard]] StereoCamera& cameras() override { return *this; }
+  [[nodiscard]] ToolPoseSource* tool_poses() override { return this; }
+  /// Whether none was measured in the newest poses.
+  [[nodiscard]] bool sees_none() const { return sees_none_; }
   /// Whether the tracker sees no tools from now on.
   void hide(bool hidden) { hidden_ = hidden; }
 
  private:
-  [[nodiscard]] const StereoCalibration& do_calibration() const override {
-    return tracker_->cameras().calibration();
+  [[nodiscard]] std::span<const std::string> do_names() const override {
+    return tracker_->tool_poses()->names();
   }
-  [[nodiscard]] std::span<const std::string> do_measured_tools() const override {
-    return tracker_->cameras().measured_tools();
-  }
-  /// One frame of the room; its tools come back from the tracker, on the room's clock.
-  Result<Next> do_next(StereoFrame& frame) override {
-    auto answer = room_.cameras().next(pair_);
+  /// One frame of the room; its tools come back from the tracker, on the room's clock and in its
+  /// World.
+  Result<Next> do_next(ToolPoses& poses) override {
+    auto answer = room_.cameras()->next(pair_);
     if (!answer || *answer != Next::kFrame) {
       return answer;
     }
@@ -76,15 +87,20 @@ class TrackedRoom : public ForwardingHeadset, private StereoCamera {
         sent = send();
         since_sent = Stopwatch();
       }
-      const auto next = tracker_->cameras().next(frame);
-      return next && *next == Next::kFrame && frame.tools.size() == sent;
+      const auto next = tracker_->tool_poses()->next(poses);
+      return next && *next == Next::kFrame && measured(poses) == sent;
     });
     if (!came) {
       return Error{"no poses came"};
     }
-    frame.time = pair_.time;
-    frame.sequence = pair_.sequence;
-    frame.world_from_rig = kStand;
+    poses.time = pair_.time;
+    poses.sequence = pair_.sequence;
+    poses.world_from_rig = kStand;
+    for (auto& tool : poses.tools) {
+      tool.time = pair_.time;
+      tool.value = kStand * rigged(tool.value);
+    }
+    sees_none_ = measured(poses) == 0;
     return Next::kFrame;
   }
 
@@ -97,14 +113,15 @@ class TrackedRoom : public ForwardingHeadset, private StereoCamera {
     since_stamp_ = Stopwatch();
     std::size_t seen = 0;
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      Transform<Rig, Marker> pose;
+      Transform<World, Marker> pose;
       if (state.tool_present[i] && !hidden_) {
-        pose = kStand.inverse() * room_.world_from_room() * state.room_from_marker[i];
+        const auto seen_from_stand =
+            kStand.inverse() * room_.world_from_room() * state.room_from_marker[i];
         const auto noise = [this](double sd) {
           return Vec3{random_.normal(0, sd), random_.normal(0, sd), random_.normal(0, sd)};
         };
-        pose = Transform<Rig, Marker>(rotation_from_vector(noise(kNoise_rad)) * pose.rotation(),
-                                      pose.translation() + noise(kNoise_m));
+        pose = {rotation_from_vector(noise(kNoise_rad)) * seen_from_stand.rotation(),
+                seen_from_stand.translation() + noise(kNoise_m)};
         ++seen;
       }
       server_.add(names_[i] + "ToTracker", pose, stamp_s_);
@@ -123,6 +140,7 @@ class TrackedRoom : public ForwardingHeadset, private StereoCamera {
   Stopwatch since_stamp_;
   double stamp_s_ = 1.7e9;
   bool hidden_ = false;
+  bool sees_none_ = true;
 };
 
 struct Operated {
@@ -140,10 +158,10 @@ class Hider : public SessionObserver, public LoopObserver {
       until_ = time + std::chrono::seconds(1);
     }
   }
-  void stepped(const StereoFrame& frame, const Inputs& /*inputs*/,
+  void stepped(const FrameHeader& frame, const Inputs& /*inputs*/,
                const Guidance& guidance) override {
     room_.hide(until_ && frame.time < *until_);
-    if (frame.tools.empty()) {
+    if (room_.sees_none()) {
       EXPECT_FALSE(guidance.tool.has_value()) << "guidance on a tool that was not measured";
     }
   }

@@ -137,7 +137,7 @@ TEST(Operation, TheBoundsOfItsDocumentedErrorsTellOneSideFromTheOther) {
 class PoseLog : public LoopObserver {
  public:
   const Session* session = nullptr;
-  void stepped(const StereoFrame& frame, const Inputs&, const Guidance& guidance) override {
+  void stepped(const FrameHeader& frame, const Inputs&, const Guidance& guidance) override {
     for (const nav::ToolState& tool : session->tool_states()) {
       lines.push_back({frame.time, guidance.status.at, tool.world_from_marker.status,
                        tool.world_from_marker.value.row_major()});

@@ -48,7 +48,7 @@ const Operation& planned_operation() {
 class EachPair : public LoopObserver {
  public:
   explicit EachPair(std::function<void(const Guidance&)> then) : then_(std::move(then)) {}
-  void stepped(const StereoFrame&, const Inputs&, const Guidance& guidance) override {
+  void stepped(const FrameHeader&, const Inputs&, const Guidance& guidance) override {
     then_(guidance);
   }
 

@@ -34,7 +34,7 @@ class Reader : public igtl::MessageReader {
       now_ += std::chrono::milliseconds(1);
       frames_.take((*found)[i], now_, now_);
       if (const auto frame = frames_.next(now_)) {
-        insist(frame->tools.size() <= 2);
+        insist(frame->tools.size() == 2);
         insist(!last_ || frame->time > *last_);
         last_ = frame->time;
       }

@@ -24,7 +24,7 @@ class PoseWriter : public LoopObserver {
   PoseWriter(const Session& session, std::ostream& out) : session_(session), out_(out) {
     out_ << std::setprecision(17);
   }
-  void stepped(const StereoFrame& frame, const Inputs&, const Guidance& guidance) override {
+  void stepped(const FrameHeader& frame, const Inputs&, const Guidance& guidance) override {
     for (const nav::ToolState& tool : session_.tool_states()) {
       out_ << frame.time.time_since_epoch().count() << ',' << name_of(guidance.status.at) << ','
            << name_of(tool.world_from_marker.status);

@@ -24,7 +24,7 @@ bool depends_on_tool(const engine::ShownHologram& hologram) {
 FlakyHeadset::FlakyHeadset(Headset& inner, Random random, const Chances& chances)
     : ForwardingHeadset(inner),
       weather_{.random = random, .chances = chances},
-      cameras_(inner.cameras(), weather_),
+      cameras_(*inner.cameras(), weather_),
       voice_(inner.voice(), weather_),
       glasses_(*inner.wearer(), weather_) {}
 

@@ -46,7 +46,7 @@ struct Weather {
 class FlakyHeadset : public ForwardingHeadset {
  public:
   FlakyHeadset(Headset& inner, Random random, const Chances& chances);
-  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] StereoCamera* cameras() override { return &cameras_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
   [[nodiscard]] Wearer* wearer() override { return &glasses_; }
   [[nodiscard]] const Troubles& done() const { return weather_.done; }

@@ -33,7 +33,7 @@ class PairWatch : public engine::LoopObserver {
  public:
   PairWatch(FlakyEnv& env, ToldEvents& told, std::int64_t begin, std::int64_t pairs)
       : env_(env), told_(told), begin_(begin), end_(begin + pairs) {}
-  void stepped(const StereoFrame& frame, const engine::Inputs&,
+  void stepped(const FrameHeader& frame, const engine::Inputs&,
                const engine::Guidance& guidance) override {
     env_.set_full(pair_ >= begin_ && pair_ < end_);
     ++pair_;

@@ -18,14 +18,14 @@ constexpr int kPairs = 300;
 /// rotation, compared with which the head's is small, is tested elsewhere.
 double normalised(const std::string& method, double lasting, bool stated) {
   auto room = hovering_room(lasting);
-  auto tracker =
-      create_modelled_tracker(method, *room, room->cameras().calibration(), geometry_of(*room), {});
+  auto tracker = create_modelled_tracker(method, *room, room->cameras()->calibration(),
+                                         geometry_of(*room), {});
   EXPECT_TRUE(tracker.ok());
   double sum = 0.0;
   int count = 0;
   StereoFrame frame;
   for (int pair = 0; pair < kPairs; ++pair) {
-    EXPECT_TRUE(room->cameras().next(frame).ok());
+    EXPECT_TRUE(room->cameras()->next(frame).ok());
     EXPECT_TRUE(frame.head_covariance.has_value());
     if (!stated) {
       frame.head_covariance.reset();

@@ -28,7 +28,7 @@ std::unique_ptr<sim::SimHeadset> documented_room(std::uint64_t seed) {
 /// corners.
 double tip_error_mm(const std::string& method, bool pixels, std::uint64_t seed) {
   auto room = documented_room(seed);
-  const auto& calibration = room->cameras().calibration();
+  const auto& calibration = room->cameras()->calibration();
   auto tracker = pixels
                      ? method_named(method)->create_tracker(calibration, geometry_of(*room), {})
                      : create_modelled_tracker(method, *room, calibration, geometry_of(*room), {});
@@ -36,7 +36,7 @@ double tip_error_mm(const std::string& method, bool pixels, std::uint64_t seed) 
   std::vector<double> off_mm;
   StereoFrame frame;
   for (int pair = 0; pair < kPairs; ++pair) {
-    EXPECT_TRUE(room->cameras().next(frame).ok());
+    EXPECT_TRUE(room->cameras()->next(frame).ok());
     const auto states = (*tracker)->track(frame);
     const auto now = room->state();
     for (const nav::ToolState& state : states) {

@@ -36,7 +36,7 @@ class PoseServer {
   }
 
   /// Adds a tool to the next message.
-  void add(const std::string& name, const Transform<Rig, Marker>& pose, double stamp_s) {
+  void add(const std::string& name, const Transform<World, Marker>& pose, double stamp_s) {
     igtl::TransformValues values{};
     for (std::size_t column = 0; column < 3; ++column) {
       for (std::size_t row = 0; row < 3; ++row) {

@@ -58,7 +58,7 @@ inline SessionLog play(Headset& headset, int max_calls = 2000) {
   SessionLog log;
   StereoFrame frame;
   for (int call = 0; call < max_calls && !log.ended; ++call) {
-    const auto answer = headset.cameras().next(frame);
+    const auto answer = headset.cameras()->next(frame);
     if (!answer) {
       log.errors.push_back(answer.error().message);
     }

@@ -51,8 +51,8 @@ void record(const std::string& folder, const StereoCalibration& really,
   auto recorder = replay::RecordingHeadset::around(headset, folder);
   ASSERT_TRUE(recorder.ok()) << recorder.error().message;
   StereoFrame frame;
-  for (auto next = (*recorder)->cameras().next(frame); next && *next != Next::kEnd;
-       next = (*recorder)->cameras().next(frame)) {
+  for (auto next = (*recorder)->cameras()->next(frame); next && *next != Next::kEnd;
+       next = (*recorder)->cameras()->next(frame)) {
   }
   const Status closed = (*recorder)->close();
   ASSERT_TRUE(closed.ok()) << closed.error().message;

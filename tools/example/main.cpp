@@ -18,7 +18,7 @@ using namespace orthonav::engine;
 
 /// Prints the status line and the numbers beside the tool, twice a second.
 struct Printer : LoopObserver {
-  void stepped(const StereoFrame& frame, const Inputs&, const Guidance& guidance) override {
+  void stepped(const FrameHeader& frame, const Inputs&, const Guidance& guidance) override {
     if (frame.sequence % 15 != 0) {
       return;
     }

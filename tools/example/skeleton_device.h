@@ -19,7 +19,7 @@ class SkeletonDevice : public Headset, Clock, StereoCamera, HeadTracker, Clicker
       : calibration_(std::move(calibration)), pairs_(pairs) {}
   [[nodiscard]] std::string name() const override { return "skeleton"; }
   [[nodiscard]] const Clock& clock() const override { return *this; }
-  [[nodiscard]] StereoCamera& cameras() override { return *this; }
+  [[nodiscard]] StereoCamera* cameras() override { return this; }
   [[nodiscard]] HeadTracker& head() override { return *this; }
   [[nodiscard]] Clicker& clicker() override { return *this; }
   [[nodiscard]] Voice& voice() override { return *this; }

@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   }
   const std::string folder = argv[1];
   const auto headset = must(replay::ReplayHeadset::open(folder));
-  StereoCamera& cameras = headset->cameras();
+  StereoCamera& cameras = *headset->cameras();
   const auto tracker = must(nav::create_photometric_tracker(
       cameras.calibration(),
       must(engine::load_tools(argc > 2 ? argv[2] : folder + "/tools.json"))));

@@ -226,7 +226,7 @@ int run_track(const TrackArguments& arguments) {
   if (!calibrated) {
     return bad_input(calibrated.error().message);
   }
-  const auto tracker = method->create_tracker((*calibrated)->cameras().calibration(),
+  const auto tracker = method->create_tracker((*calibrated)->cameras()->calibration(),
                                               std::move(*tools), options_of(arguments));
   if (!tracker) {
     return bad_input(tracker.error().message);

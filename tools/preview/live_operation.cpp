@@ -145,7 +145,7 @@ void LiveOperation::run() {
   ended_ = true;
 }
 
-void LiveOperation::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*/,
+void LiveOperation::stepped(const FrameHeader& frame, const engine::Inputs& /*inputs*/,
                             const engine::Guidance& guidance) {
   moment_.tracking_ms = gated_.since_pair_ms();
   moment_.camera_ms = gated_.camera_ms();
@@ -170,11 +170,11 @@ void LiveOperation::lay_out_labels(const engine::Snapshot& snapshot) {
   if (moment_.world_from_rig.status == PoseStatus::kLost) {
     return;
   }
+  const StereoCamera* const cameras = headset_->cameras();
+  const Vec3 left_m =
+      cameras == nullptr ? Vec3{} : cameras->calibration().left_from_rig.inverse().translation();
   const auto rig_from_eye =
-      room_ ? tools::rig_from_eye()
-            : Transform<Rig, Eye>{
-                  Mat3::identity(),
-                  headset_->cameras().calibration().left_from_rig.inverse().translation()};
+      room_ ? tools::rig_from_eye() : Transform<Rig, Eye>{Mat3::identity(), left_m};
   eye_.resize(1);
   eye_[0].eye_from_world =
       engine::to_matrix((moment_.world_from_rig.value * rig_from_eye).inverse().row_major());

@@ -59,7 +59,7 @@ class LiveOperation : private engine::LoopObserver, private engine::SnapshotSink
   LiveOperation(OpenedHeadset opened, Gate& gate, Keyboard& keyboard, Timeline& timeline);
   Status prepare(const OperationSource& source);
   void run();
-  void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
+  void stepped(const FrameHeader& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
   void captured(const engine::Snapshot& snapshot) override;
   void lay_out_labels(const engine::Snapshot& snapshot);

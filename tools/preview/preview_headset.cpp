@@ -4,24 +4,28 @@
 
 namespace orthonav::preview {
 
-Result<Next> PreviewHeadset::GatedCameras::do_next(StereoFrame& frame) {
-  if (!gate_.may_pass()) {
+template <class Forwarding, class Frame>
+Result<Next> PreviewHeadset::Gated<Forwarding, Frame>::do_next(Frame& frame) {
+  if (!passage_.gate.may_pass()) {
     return Next::kNone;
   }
   const Timestamp asked = WallClock().now();
-  auto answer = ForwardingCamera::do_next(frame);
+  auto answer = Forwarding::do_next(frame);
   if (!answer || *answer != Next::kFrame) {
-    gate_.none_came();
+    passage_.gate.none_came();
     return answer;
   }
-  there_ = WallClock().now();
-  camera_ms_ = 1e3 * seconds(there_ - asked);
-  gate_.pass(frame.time);
+  passage_.there = WallClock().now();
+  passage_.camera_ms = 1e3 * seconds(passage_.there - asked);
+  passage_.gate.pass(frame.time);
   return answer;
 }
 
-double PreviewHeadset::GatedCameras::since_pair_ms() const {
-  return 1e3 * seconds(WallClock().now() - there_);
+template class PreviewHeadset::Gated<ForwardingCamera, StereoFrame>;
+template class PreviewHeadset::Gated<ForwardingToolPoses, ToolPoses>;
+
+double PreviewHeadset::since_pair_ms() const {
+  return 1e3 * seconds(WallClock().now() - passage_.there);
 }
 
 }  // namespace orthonav::preview

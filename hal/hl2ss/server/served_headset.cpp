@@ -8,7 +8,7 @@
 namespace orthonav::hl2ss {
 std::vector<std::uint8_t> ServedHeadset::left_calibration(int unmapped_edge_px) const {
   const MutexLock lock(mutex_);
-  const StereoCalibration& cameras = headset_->cameras().calibration();
+  const StereoCalibration& cameras = headset_->cameras()->calibration();
   auto bytes = calibration_bytes(cameras.left, cameras.left_from_rig.row_major());
   unmap_edges(bytes, unmapped_edge_px);
   return bytes;
@@ -16,7 +16,7 @@ std::vector<std::uint8_t> ServedHeadset::left_calibration(int unmapped_edge_px) 
 
 std::vector<std::uint8_t> ServedHeadset::right_calibration(int unmapped_edge_px) const {
   const MutexLock lock(mutex_);
-  const StereoCalibration& cameras = headset_->cameras().calibration();
+  const StereoCalibration& cameras = headset_->cameras()->calibration();
   auto bytes = calibration_bytes(cameras.right, cameras.right_from_rig.row_major());
   unmap_edges(bytes, unmapped_edge_px);
   return bytes;

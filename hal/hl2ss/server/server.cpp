@@ -142,7 +142,7 @@ class RunningServer final : public Server {
     });
     const Timestamp now = headset.clock().now();
     const Duration latency = headset.display_latency();
-    sides_.greet({options_.paced, latency, now, headset.cameras().may_repeat()});
+    sides_.greet({options_.paced, latency, now, headset.cameras()->may_repeat()});
     depth_.begin(headset);
   }
   void end_session() {
@@ -165,7 +165,7 @@ class RunningServer final : public Server {
       if (HostClock::now() - gone_since > kPatience) {
         return;
       }
-      const auto next = headset.cameras().next(frame);
+      const auto next = headset.cameras()->next(frame);
       if (next && *next == Next::kEnd) {
         return;
       }

@@ -4,6 +4,7 @@
 
 #include "engine/case/tool_file.h"
 #include "engine/live/known_tools.h"
+#include "hal/api/forwarding_headset.h"
 #include "hal/fake/failing.h"
 #include "tests/support/scripted_operation.h"
 #include "tests/support/scripted_pairs.h"
@@ -35,8 +36,10 @@ Method blind(nav::TrackerOptions& asked) {
 
 class CountingObserver : public LoopObserver {
  public:
-  void stepped(const StereoFrame&, const Inputs&, const Guidance&) override { ++pairs; }
+  void stepped(const FrameHeader&, const Inputs&, const Guidance&) override { ++pairs; }
+  void pair_came(const StereoFrame&) override { ++pictures; }
   int pairs = 0;
+  int pictures = 0;
 };
 
 class HearingObserver : public SessionObserver {
@@ -172,19 +175,57 @@ TEST(ToolsKnownTo, AHeadsetAreTheValuesThatItTells) {
   EXPECT_EQ(tool.axis_in_marker.v, (Vec3{0.0, 0.0, 1.0}));
 }
 
-/// Measures a pointer itself, without describing it.
-class MeasuringHeadset : public fake::FakeHeadset, private StereoCamera {
- public:
-  MeasuringHeadset() : FakeHeadset(test::pairs(1)) {}
-  [[nodiscard]] StereoCamera& cameras() override { return *this; }
+/// For a headset that measures its tools itself, for `n` moments, without describing them.
+fake::Script measured(int n) {
+  fake::Script script = test::pairs(0);
+  script.tools = {"pointer", "guide", "reference"};
+  for (int i = 0; i < n; ++i) {
+    ToolPoses poses;
+    poses.sequence = i;
+    poses.time = test::kStart + (i + 1) * test::kPair;
+    poses.world_from_rig = Transform<World, Rig>{};
+    poses.tools.assign(3, {{}, poses.time, PoseStatus::kMeasured, {}});
+    poses.tools[1] = {};
+    script.tool_poses.emplace_back(poses);
+  }
+  return script;
+}
 
- private:
-  [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
-  [[nodiscard]] std::span<const std::string> do_measured_tools() const override { return names_; }
-  Result<Next> do_next(StereoFrame& /*frame*/) override { return Next::kEnd; }
-  StereoCalibration calibration_;
-  std::vector<std::string> names_ = {"pointer", "guide", "reference"};
-};
+TEST_F(AssembledOperationTest, TakesPosesWhereTheHeadsetMeasuresToolsItself) {
+  fake::Script script = measured(4);
+  script.tool_poses[2] = Error{"out of order"};
+  fake::FakeHeadset headset(script);
+  const auto operation = assembled(headset);
+  ASSERT_TRUE(operation.ok()) << operation.error().message;
+  CountingObserver counting;
+  (*operation)->observe(&counting);
+  const auto report = (*operation)->run();
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.displayed, 3);
+  EXPECT_EQ(report.failures, 1);
+  EXPECT_EQ(report.last_frame, test::kStart + 4 * test::kPair);
+  EXPECT_EQ(counting.pairs, 3);
+  EXPECT_EQ(counting.pictures, 0);
+  std::vector<PoseStatus> seen;
+  for (const nav::ToolState& state : (*operation)->session().tool_states()) {
+    seen.push_back(state.world_from_marker.status);
+  }
+  EXPECT_THAT(seen, ::testing::ElementsAre(PoseStatus::kMeasured, PoseStatus::kLost,
+                                           PoseStatus::kMeasured));
+}
+
+TEST_F(AssembledOperationTest, NeedsToolsFromSomewhere) {
+  class Blind : public ForwardingHeadset {
+   public:
+    using ForwardingHeadset::ForwardingHeadset;
+    [[nodiscard]] StereoCamera* cameras() override { return nullptr; }
+  };
+  fake::FakeHeadset inner(test::pairs(1));
+  Blind headset(inner);
+  const auto refused = assembled(headset);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().message, "fake has no cameras, and measures no tools itself");
+}
 
 TEST_F(AssembledOperationTest, CountsWithWhatSuchDevicesUsuallyAreOffWhereNobodySays) {
   fake::FakeHeadset headset(test::pairs(1));
@@ -201,7 +242,7 @@ TEST_F(AssembledOperationTest, CountsWithWhatSuchDevicesUsuallyAreOffWhereNobody
   EXPECT_NEAR(assumed.common().sd_m(), 0.00061, 1e-5);
   EXPECT_EQ(assumed.tip_m.source, ErrorSource::kAssumed);
   EXPECT_GT(assumed.map_drift_m_per_sqrt_s.sd, 0.0);
-  MeasuringHeadset tracker;
+  fake::FakeHeadset tracker(measured(1));
   EXPECT_LT(of(tracker).cameras_m.sd, assumed.cameras_m.sd);
   EXPECT_EQ(of(tracker).map_drift_m_per_sqrt_s.source, ErrorSource::kNone) << "it stands still";
   options_.errors.tip_m = ErrorSd{0.001, ErrorSource::kGiven};
@@ -213,7 +254,7 @@ TEST_F(AssembledOperationTest, CountsWithWhatSuchDevicesUsuallyAreOffWhereNobody
 }
 
 TEST(ToolsKnownTo, AHeadsetThatMeasuresToolsItselfAreNotGuessed) {
-  MeasuringHeadset headset;
+  fake::FakeHeadset headset(measured(1));
   const auto tools = tools_known_to(headset);
   ASSERT_FALSE(tools.ok());
   EXPECT_THAT(tools.error().message, HasSubstr("--tools"));

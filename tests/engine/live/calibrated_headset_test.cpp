@@ -47,7 +47,7 @@ class CalibratedHeadsetTest : public ::testing::Test {
 
 TEST_F(CalibratedHeadsetTest, HasTheLensesAndTheBaselineOfTheFileAndTheDevicesOwnRig) {
   fake::FakeHeadset device(test::pairs(1));
-  const StereoCalibration own = device.cameras().calibration();
+  const StereoCalibration own = device.cameras()->calibration();
   json content = calibration();
   content["left"]["width_px"] = content["right"]["width_px"] = own.left.width_px();
   content["left"]["height_px"] = content["right"]["height_px"] = own.left.height_px();
@@ -55,7 +55,7 @@ TEST_F(CalibratedHeadsetTest, HasTheLensesAndTheBaselineOfTheFileAndTheDevicesOw
   ASSERT_TRUE(file.ok()) << file.error().message;
   const auto calibrated = CalibratedHeadset::create(device, *file);
   ASSERT_TRUE(calibrated.ok()) << calibrated.error().message;
-  const StereoCalibration& found = (*calibrated)->cameras().calibration();
+  const StereoCalibration& found = (*calibrated)->cameras()->calibration();
   EXPECT_NEAR(found.right_from_left().translation().x, -0.0985, 1e-9);
   EXPECT_NEAR(found.right_from_left().translation().y, 0.00025, 1e-9);
   EXPECT_EQ(found.left_from_rig.row_major(), own.left_from_rig.row_major());
@@ -91,8 +91,8 @@ TEST_F(CalibratedHeadsetTest, KeepsTheDevicesLensesWhereARecordingToldTheBaselin
   ASSERT_TRUE(file.ok()) << file.error().message;
   const auto calibrated = CalibratedHeadset::create(device, *file);
   ASSERT_TRUE(calibrated.ok());
-  EXPECT_EQ((*calibrated)->cameras().calibration().left.lookup().size(),
-            device.cameras().calibration().left.lookup().size());
+  EXPECT_EQ((*calibrated)->cameras()->calibration().left.lookup().size(),
+            device.cameras()->calibration().left.lookup().size());
 }
 
 TEST_F(CalibratedHeadsetTest, RefusesWhatIsNoCalibrationOrNotThisHeadsets) {

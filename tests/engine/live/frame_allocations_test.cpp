@@ -188,7 +188,7 @@ class EndlessCamera : public StereoCamera {
   std::int64_t next_ = 0;
   const StereoFrame pair_ = test::dark_pair(0);
   [[nodiscard]] const StereoCalibration& do_calibration() const override {
-    return inner_.cameras().calibration();
+    return inner_.cameras()->calibration();
   }
   [[nodiscard]] MayRepeat do_may_repeat() const override { return {true, true}; }
   Result<Next> do_next(StereoFrame& frame) override {
@@ -208,7 +208,7 @@ class EndlessHeadset : public ForwardingHeadset {
  public:
   EndlessHeadset(fake::FakeHeadset& inner, int count)
       : ForwardingHeadset(inner), cameras_(inner, count) {}
-  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] StereoCamera* cameras() override { return &cameras_; }
 
  private:
   EndlessCamera cameras_;
@@ -218,7 +218,7 @@ class EndlessHeadset : public ForwardingHeadset {
 class Counting : public LoopObserver, public SnapshotSink {
  public:
   explicit Counting(int warm) : warm_(warm) {}
-  void stepped(const StereoFrame&, const Inputs&, const Guidance&) override {
+  void stepped(const FrameHeader&, const Inputs&, const Guidance&) override {
     if (warm_-- == 0) {
       before_ = test::allocation_count();
     }

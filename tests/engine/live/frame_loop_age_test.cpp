@@ -31,7 +31,7 @@ Notice notice_of(const ShownFrame& frame) {
 class WaitingCamera : public ForwardingCamera {
  public:
   explicit WaitingCamera(fake::FakeHeadset& inner)
-      : ForwardingCamera(inner.cameras()), inner_(inner) {}
+      : ForwardingCamera(*inner.cameras()), inner_(inner) {}
 
  private:
   fake::FakeHeadset& inner_;
@@ -48,7 +48,7 @@ class WaitingHeadset : public ForwardingHeadset {
  public:
   explicit WaitingHeadset(fake::FakeHeadset& inner) : ForwardingHeadset(inner), cameras_(inner) {}
   [[nodiscard]] std::string name() const override { return "waiting"; }
-  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] StereoCamera* cameras() override { return &cameras_; }
 
  private:
   WaitingCamera cameras_;
@@ -253,7 +253,7 @@ TEST_F(GuidingLoop, LeavesOnlyTheStatusLineHoweverItEnds) {
 class SlowTracking : public LoopObserver {
  public:
   SlowTracking(fake::ManualClock& clock, Duration takes) : clock_(clock), takes_(takes) {}
-  void stepped(const StereoFrame&, const Inputs&, const Guidance&) override {
+  void stepped(const FrameHeader&, const Inputs&, const Guidance&) override {
     clock_.advance(takes_);
   }
 

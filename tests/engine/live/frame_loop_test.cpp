@@ -169,7 +169,7 @@ class AwayClicker : public ForwardingHeadset, private Clicker {
 
 TEST(FrameLoop, SaysWhileThereIsNoClickerAndGoesOn) {
   struct Watching : LoopObserver {
-    void stepped(const StereoFrame&, const Inputs&, const Guidance& guidance) override {
+    void stepped(const FrameHeader&, const Inputs&, const Guidance& guidance) override {
       std::string text;
       append_status(text, guidance.status);
       shown += text.find("no clicker") != std::string::npos ? 1 : 0;

@@ -72,8 +72,8 @@ class EventfulHeadset : public ForwardingHeadset {
   EventfulHeadset(
       Headset& inner, AtPair camera,
       std::function<Status(Timestamp)> voice = [](Timestamp) { return Status{}; })
-      : ForwardingHeadset(inner), cameras_(inner.cameras(), std::move(camera)), voice_(voice) {}
-  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+      : ForwardingHeadset(inner), cameras_(*inner.cameras(), std::move(camera)), voice_(voice) {}
+  [[nodiscard]] StereoCamera* cameras() override { return &cameras_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
 
  private:
@@ -133,7 +133,7 @@ class WatchedSink : public SnapshotSink {
 class Stepped : public LoopObserver {
  public:
   explicit Stepped(std::function<void(const Guidance&)> then) : then_(std::move(then)) {}
-  void stepped(const StereoFrame&, const Inputs&, const Guidance& guidance) override {
+  void stepped(const FrameHeader&, const Inputs&, const Guidance& guidance) override {
     then_(guidance);
   }
 

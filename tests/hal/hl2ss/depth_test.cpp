@@ -54,7 +54,7 @@ struct Direct {
     }
     StereoFrame pair;
     DepthFrame frame;
-    while (*headset->cameras().next(pair) == Next::kFrame) {
+    while (*headset->cameras()->next(pair) == Next::kFrame) {
       while (*camera->next(frame) == Next::kFrame) {
         frames[frame.time] = frame;
       }
@@ -101,7 +101,7 @@ Served served_depth(const sim::SimOptions& sim, const DepthWish& wish, std::size
     if (next && *next == Next::kFrame) {
       all.frames.push_back(frame);
     } else if (!direct.owes(all.frames, pair.time) || since_pair.elapsed() > kGivenUp) {
-      if (*headset->cameras().next(pair) == Next::kFrame) {
+      if (*headset->cameras()->next(pair) == Next::kFrame) {
         since_pair = Stopwatch();
       }
     }
@@ -247,7 +247,7 @@ TEST(Depth, ChangesNothingOfThePairs) {
   DepthFrame depth;
   int pairs = 0;
   for (; next_pair(*headset, frame) == Next::kFrame; ++pairs) {
-    ASSERT_EQ(*(*direct)->cameras().next(expected), Next::kFrame);
+    ASSERT_EQ(*(*direct)->cameras()->next(expected), Next::kFrame);
     EXPECT_EQ(frame.time, expected.time);
     EXPECT_TRUE(frame.left == expected.left);
     EXPECT_TRUE(frame.right == expected.right);

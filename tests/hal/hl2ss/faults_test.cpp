@@ -44,7 +44,7 @@ Seen go_through(const sim::SimOptions& sim, const ServerOptions& options, VideoP
     seen.ordered = seen.ordered && frame.time > last;
     last = frame.time;
     seen.map_epoch = frame.map_epoch;
-    while (expected.time < frame.time && *direct->cameras().next(expected) == Next::kFrame) {
+    while (expected.time < frame.time && *direct->cameras()->next(expected) == Next::kFrame) {
     }
     seen.sound = seen.sound && expected.time == frame.time;
     if (frame.world_from_rig && options.faults.jump_at.empty()) {
@@ -175,7 +175,7 @@ TEST(Reconnecting, GoesOnWithANewServer) {
   }
   EXPECT_EQ((*headset)->head().world_from_rig(frame.time).status, PoseStatus::kMeasured);
   first->reset();
-  EXPECT_TRUE(wait_until([&] { return !(*headset)->cameras().next(frame).ok(); }))
+  EXPECT_TRUE(wait_until([&] { return !(*headset)->cameras()->next(frame).ok(); }))
       << "the loss is told";
   int errors = 1;
   EXPECT_EQ((*headset)->head().world_from_rig(frame.time).status, PoseStatus::kLost);

@@ -38,7 +38,7 @@ Outcome outcome_of(const sim::SimOptions& sim, const Faults& faults, VideoProfil
   Outcome outcome;
   StereoFrame frame;
   EXPECT_TRUE(wait_until([&] {
-    const auto next = headset->cameras().next(frame);
+    const auto next = headset->cameras()->next(frame);
     if (next && *next == Next::kEnd) {
       return true;
     }
@@ -106,7 +106,7 @@ TEST(OneCamerasStamps, ShiftedByAPairMakePairsOfTwoMoments) {
   while (next_pair(*headset, frame) == Next::kFrame) {
     while (expected.time < frame.time) {
       std::swap(before, expected);
-      ASSERT_EQ(*direct->cameras().next(expected), Next::kFrame);
+      ASSERT_EQ(*direct->cameras()->next(expected), Next::kFrame);
     }
     EXPECT_TRUE(frame.left == expected.left);
     shifted += frame.right == before.right ? 1 : 0;
@@ -136,7 +136,7 @@ AfterSetting set_back(Duration by) {
   AfterSetting after;
   StereoFrame frame;
   EXPECT_TRUE(wait_until([&] {
-    const auto next = headset->cameras().next(frame);
+    const auto next = headset->cameras()->next(frame);
     if (!next) {
       after.told.push_back(next.error().message);
       return false;

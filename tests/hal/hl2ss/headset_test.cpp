@@ -32,7 +32,7 @@ TEST(Headset, RawImagesComeAsTheyWere) {
   StereoFrame expected;
   int pairs = 0;
   for (; next_pair(*headset, frame) == Next::kFrame; ++pairs) {
-    ASSERT_EQ(*(*direct)->cameras().next(expected), Next::kFrame);
+    ASSERT_EQ(*(*direct)->cameras()->next(expected), Next::kFrame);
     EXPECT_EQ(frame.time, expected.time);
     EXPECT_TRUE(frame.left == expected.left);
     EXPECT_TRUE(frame.right == expected.right);
@@ -58,7 +58,7 @@ TEST(Headset, H264ImagesComeWithinTheCodecsNoise) {
   StereoFrame expected;
   int pairs = 0;
   for (; next_pair(*headset, frame) == Next::kFrame; ++pairs) {
-    ASSERT_EQ(*(*direct)->cameras().next(expected), Next::kFrame);
+    ASSERT_EQ(*(*direct)->cameras()->next(expected), Next::kFrame);
     EXPECT_EQ(frame.time, expected.time);
     double squares = 0.0;
     for (std::size_t i = 0; i < frame.left.pixels.size(); ++i) {

@@ -123,7 +123,7 @@ TEST(HostileDepth, StampsTeachNobodyTheTime) {
   // The newest pair still counts as current: the clock was not carried 9 s ahead. The server's
   // stamps may lag by seconds, since they count its turns and a busy machine lets it wait.
   EXPECT_TRUE(orthonav::test::wait_until([&] {
-    const auto next = headset->cameras().next(pair);
+    const auto next = headset->cameras()->next(pair);
     return next && *next == Next::kFrame;
   }));
   EXPECT_LT(seconds(headset->clock().now() - pair.time), 8.0);

@@ -166,7 +166,7 @@ inline int pairs_until(Hl2ssHeadset& headset,
     if (enough(pairs, headset.statistics())) {
       return true;
     }
-    const auto next = headset.cameras().next(frame);
+    const auto next = headset.cameras()->next(frame);
     pairs += next && *next == Next::kFrame ? 1 : 0;
     EXPECT_TRUE(headset.voice().poll(headset.clock().now(), phrases).ok());
     (void)headset.head().world_from_rig(headset.clock().now());

@@ -52,7 +52,7 @@ std::vector<std::string> heard(const std::vector<std::string>& said,
   // Recognition is polled ten times a second, so the last phrases come after the last pair.
   HostTime ended = HostTime::max();
   (void)orthonav::test::wait_until([&] {
-    const auto next = (*headset)->cameras().next(frame);
+    const auto next = (*headset)->cameras()->next(frame);
     EXPECT_TRUE((*headset)->voice().poll((*headset)->clock().now(), all).ok());
     if (next && *next == Next::kEnd && ended == HostTime::max()) {
       ended = HostClock::now();

@@ -28,7 +28,7 @@ std::unique_ptr<hl2ss::Hl2ssHeadset> ServedRoom::connect(hl2ss::VideoProfile pro
 Next next_pair(Headset& headset, StereoFrame& frame, int* errors) {
   Next came = Next::kNone;
   static_cast<void>(wait_until([&] {
-    const auto next = headset.cameras().next(frame);
+    const auto next = headset.cameras()->next(frame);
     if (!next && errors) {
       ++*errors;
     }

@@ -41,8 +41,8 @@ std::string refusal(const Buffer& message) {
 Buffer transform(const TransformValues& values) { return packed({"ProbeToTracker", 0}, values); }
 
 void expect_rotated(const SentPose& pose) {
-  ASSERT_TRUE(pose.rig_from_marker);
-  const Vec3 there = (*pose.rig_from_marker * Point<Marker>{{0.001, 0.002, 0.003}}).v;
+  ASSERT_TRUE(pose.world_from_marker);
+  const Vec3 there = (*pose.world_from_marker * Point<Marker>{{0.001, 0.002, 0.003}}).v;
   EXPECT_LT((there - Vec3{0.103, 0.201, 0.302}).norm(), kFloat);
 }
 
@@ -122,10 +122,10 @@ TEST(IgtlPoses, QuaternionsOfDebiansLibraryAreRead) {
 TEST(IgtlPoses, AnIdentityIsALostTool) {
   const auto lost = read(transform({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}));
   ASSERT_TRUE(lost.ok());
-  EXPECT_FALSE(lost->front().rig_from_marker);
+  EXPECT_FALSE(lost->front().world_from_marker);
   const auto near = read(transform({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0.001F}));
   ASSERT_TRUE(near.ok());
-  EXPECT_TRUE(near->front().rig_from_marker) << "the control";
+  EXPECT_TRUE(near->front().world_from_marker) << "the control";
 }
 
 TEST(IgtlPoses, MetadataSayThatAToolIsLost) {
@@ -134,10 +134,10 @@ TEST(IgtlPoses, MetadataSayThatAToolIsLost) {
   expect_rotated(seen->front());
   const auto lost = read(with_metadata(transform(kRotated), "TransformStatus", "MISSING"));
   ASSERT_TRUE(lost.ok());
-  EXPECT_FALSE(lost->front().rig_from_marker);
+  EXPECT_FALSE(lost->front().world_from_marker);
   const auto other = read(with_metadata(transform(kRotated), "ToolStatus", "MISSING"));
   ASSERT_TRUE(other.ok());
-  EXPECT_TRUE(other->front().rig_from_marker);
+  EXPECT_TRUE(other->front().world_from_marker);
 }
 
 TEST(IgtlPoses, WhatIsNoRigidMotionIsRefusedByName) {

@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <thread>
 
 #include "base/stopwatch.h"
+#include "hal/api/tool_pose_source.h"
 #include "tests/support/pose_server.h"
 
 namespace orthonav::igtl::tracker_headset_test {
@@ -17,7 +19,7 @@ using orthonav::test::wait_until;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-Transform<Rig, Marker> moved(Vec3 by_m) { return {Mat3::identity(), by_m}; }
+Transform<World, Marker> moved(Vec3 by_m) { return {Mat3::identity(), by_m}; }
 
 std::string refusal(const std::string& after_scheme) {
   const auto options = tracker_options_of(after_scheme);
@@ -118,26 +120,31 @@ class IgtlTracker : public ::testing::Test {
   /// Waits for the next frame that holds tools.
   bool take() {
     return wait_until([this] {
-      const auto next = headset_->cameras().next(frame_);
+      const auto next = headset_->tool_poses()->next(frame_);
       lost_ += next ? 0 : 1;
-      return next && *next == Next::kFrame && !frame_.tools.empty();
+      return next && *next == Next::kFrame && sees_any();
     });
+  }
+
+  [[nodiscard]] bool sees_any() const {
+    return std::any_of(frame_.tools.begin(), frame_.tools.end(),
+                       [](const auto& tool) { return tool.status == PoseStatus::kMeasured; });
   }
 
   std::unique_ptr<PoseServer> server_ = std::make_unique<PoseServer>();
   std::unique_ptr<Headset> headset_;
-  StereoFrame frame_;
+  ToolPoses frame_;
   double stamp_s_ = 1.7e9;
   int lost_ = 0;  ///< times that it said so
 };
 
-TEST_F(IgtlTracker, IsAHeadsetWithoutCamerasWhoseFramesHoldTools) {
+TEST_F(IgtlTracker, IsAHeadsetWithoutCamerasThatMeasuresTools) {
   open("pointer=ProbeToTracker&reference=ReferenceToTracker&rms_mm=0.25");
-  StereoCamera& cameras = headset_->cameras();
-  EXPECT_FALSE(cameras.calibration().has_images());
+  EXPECT_EQ(headset_->cameras(), nullptr);
   EXPECT_EQ(headset_->pixels(), nullptr);
-  ASSERT_EQ(cameras.measured_tools().size(), 2u);
-  EXPECT_EQ(cameras.measured_tools()[0], "pointer");
+  const auto names = headset_->tool_poses()->names();
+  ASSERT_EQ(names.size(), 2u);
+  EXPECT_EQ(names[0], "pointer");
   const Timestamp first = frame_.time;
   send(0.002);
   ASSERT_TRUE(take());
@@ -146,8 +153,8 @@ TEST_F(IgtlTracker, IsAHeadsetWithoutCamerasWhoseFramesHoldTools) {
   EXPECT_EQ(frame_.map_epoch, 0);
   EXPECT_EQ(frame_.world_from_rig, (Transform<World, Rig>{})) << "the tracker stands still";
   ASSERT_EQ(frame_.tools.size(), 2u);
-  EXPECT_NEAR(frame_.tools[0].rig_from_marker.translation().x, 0.002, 1e-8);
-  EXPECT_NEAR(frame_.tools[1].rig_from_marker.translation().y, 0.002, 1e-8);
+  EXPECT_NEAR(frame_.tools[0].value.translation().x, 0.002, 1e-8);
+  EXPECT_NEAR(frame_.tools[1].value.translation().y, 0.002, 1e-8);
   EXPECT_NEAR(translation_sigma_m(frame_.tools[0].covariance), 0.00025, 1e-9) << "as stated";
   EXPECT_EQ(headset_->head().world_from_rig(frame_.time).status, PoseStatus::kMeasured);
 }
@@ -169,8 +176,8 @@ TEST_F(IgtlTracker, SaysOnceThatItsConnectionIsLostAndGoesOnInAnotherMap) {
   open();
   const int port = server_->port();
   server_.reset();
-  ASSERT_TRUE(wait_until([this] { return !headset_->cameras().next(frame_); }));
-  const auto next = headset_->cameras().next(frame_);
+  ASSERT_TRUE(wait_until([this] { return !headset_->tool_poses()->next(frame_); }));
+  const auto next = headset_->tool_poses()->next(frame_);
   ASSERT_TRUE(next.ok()) << "told once";
   EXPECT_EQ(*next, Next::kNone);
   server_ = std::make_unique<PoseServer>(port);
@@ -206,8 +213,8 @@ TEST_F(IgtlTracker, SaysThatTheSendersClockWasSetAndGoesOnOnceItIsKnown) {
     const std::int64_t had = headset_->connection()->streams.front().packets;
     send(1e-6 * since.elapsed_ms());
     (void)wait_until([&] { return headset_->connection()->streams.front().packets >= had + 2; });
-    const auto next = headset_->cameras().next(frame_);
-    EXPECT_TRUE(!next || *next != Next::kFrame || frame_.tools.empty()) << "its age is not known";
+    const auto next = headset_->tool_poses()->next(frame_);
+    EXPECT_TRUE(!next || *next != Next::kFrame || !sees_any()) << "its age is not known";
     said = next ? "" : next.error().message;
     return !next;
   }));

@@ -36,7 +36,7 @@ class LossTest : public RuntimeTest {
     return next_frame(frame) ? frame.map_epoch : -1;
   }
   bool next_frame(StereoFrame& frame) {
-    const auto answer = headset_->cameras().next(frame);
+    const auto answer = headset_->cameras()->next(frame);
     return answer.ok() && *answer == Next::kFrame;
   }
 };

@@ -76,7 +76,7 @@ class OperationOnOpenxr : public RuntimeTest {
 class Watch : public engine::LoopObserver {
  public:
   explicit Watch(RuntimeDouble& runtime) : runtime_(runtime) {}
-  void stepped(const StereoFrame&, const engine::Inputs&, const engine::Guidance& now) override {
+  void stepped(const FrameHeader&, const engine::Inputs&, const engine::Guidance& now) override {
     if (now.step != step_) {
       step_ = now.step;
       pairs_in_step_ = 0;
@@ -152,7 +152,7 @@ TEST_F(OperationOnOpenxr, ComesToItsEndThroughLossesAndARecentring) {
   runtime().at_frame(80, [] { runtime_double().lose_instance(false); });
   class Recentre : public engine::LoopObserver {
    public:
-    void stepped(const StereoFrame& frame, const engine::Inputs&,
+    void stepped(const FrameHeader& frame, const engine::Inputs&,
                  const engine::Guidance& now) override {
       if (now.step == engine::Step::kGuide && !told_) {
         told_ = true;

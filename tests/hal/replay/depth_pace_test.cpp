@@ -53,11 +53,11 @@ TEST(DepthPace, ComesWhenThePairsHaveBroughtTheClockThatFar) {
   ASSERT_NE(headset, nullptr);
   EXPECT_THAT(taken(*headset), ElementsAre());
   StereoFrame pair;
-  ASSERT_EQ(*headset->cameras().next(pair), Next::kFrame);
+  ASSERT_EQ(*headset->cameras()->next(pair), Next::kFrame);
   EXPECT_THAT(taken(*headset), ElementsAre(-200'000));
-  ASSERT_EQ(*headset->cameras().next(pair), Next::kFrame);
+  ASSERT_EQ(*headset->cameras()->next(pair), Next::kFrame);
   EXPECT_THAT(taken(*headset), ElementsAre(100'000, 200'000));
-  ASSERT_EQ(*headset->cameras().next(pair), Next::kEnd);
+  ASSERT_EQ(*headset->cameras()->next(pair), Next::kEnd);
   EXPECT_THAT(taken(*headset), ElementsAre(400'000, 500'000));
   DepthFrame frame;
   EXPECT_EQ(*headset->depth_cameras().front()->next(frame), Next::kEnd);
@@ -68,15 +68,15 @@ TEST(DepthPace, WaitsForTheSteps) {
   const auto headset = opened(recording, {ReplayPace::kStepped, nullptr});
   ASSERT_NE(headset, nullptr);
   StereoFrame pair;
-  EXPECT_EQ(*headset->cameras().next(pair), Next::kNone);
+  EXPECT_EQ(*headset->cameras()->next(pair), Next::kNone);
   EXPECT_THAT(taken(*headset), ElementsAre());
   headset->step();
-  EXPECT_EQ(*headset->cameras().next(pair), Next::kFrame);
+  EXPECT_EQ(*headset->cameras()->next(pair), Next::kFrame);
   EXPECT_THAT(taken(*headset), ElementsAre(-200'000));
   headset->step();
-  EXPECT_EQ(*headset->cameras().next(pair), Next::kFrame);
+  EXPECT_EQ(*headset->cameras()->next(pair), Next::kFrame);
   EXPECT_THAT(taken(*headset), ElementsAre(100'000, 200'000));
-  ASSERT_EQ(*headset->cameras().next(pair), Next::kEnd);
+  ASSERT_EQ(*headset->cameras()->next(pair), Next::kEnd);
   EXPECT_THAT(taken(*headset), ElementsAre(400'000, 500'000));
 }
 

@@ -90,7 +90,7 @@ void expect_plane(const DepthScene& scene, ReplayHeadset& headset, DepthStream s
   DepthCamera& camera = *headset.depth_cameras().front();
   EXPECT_EQ(camera.calibration().stream, stream);
   StereoFrame pair;
-  while (*headset.cameras().next(pair) == Next::kFrame) {
+  while (*headset.cameras()->next(pair) == Next::kFrame) {
   }
   DepthFrame frame;
   for (const DepthScene::Picture& picture : scene.pictures) {

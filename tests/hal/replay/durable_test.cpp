@@ -30,7 +30,7 @@ std::unique_ptr<RecordingHeadset> of_one_pair(const TemporaryFolder& folder) {
                                folder / "session")
           .value();
   StereoFrame frame;
-  EXPECT_TRUE(is_ok(recorder->cameras().next(frame)));
+  EXPECT_TRUE(is_ok(recorder->cameras()->next(frame)));
   return recorder;
 }
 

@@ -88,14 +88,14 @@ TEST(Hololens1, ComesBackAsItWasWritten) {
   const Hololens1Folder folder(calibration, frames);
   const auto replay = ReplayHeadset::open(folder.path());
   ASSERT_TRUE(replay.ok()) << replay.error().message;
-  const StereoCalibration& read = (*replay)->cameras().calibration();
+  const StereoCalibration& read = (*replay)->cameras()->calibration();
   expect_near(read.left, calibration.left);
   expect_near(read.right, calibration.right);
   expect_near(read.left_from_rig, calibration.left_from_rig);
   expect_near(read.right_from_rig, calibration.right_from_rig);
   StereoFrame frame;
   for (const StereoFrame& expected : frames) {
-    const auto next = (*replay)->cameras().next(frame);
+    const auto next = (*replay)->cameras()->next(frame);
     ASSERT_TRUE(next.ok() && *next == Next::kFrame);
     EXPECT_EQ((*replay)->file_ticks_100ns(frame.time),
               Hololens1Folder::kStart + ticks_100ns(expected.time));
@@ -106,7 +106,7 @@ TEST(Hololens1, ComesBackAsItWasWritten) {
       expect_near(*frame.world_from_rig, *expected.world_from_rig);
     }
   }
-  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kEnd);
+  EXPECT_EQ(*(*replay)->cameras()->next(frame), Next::kEnd);
   EXPECT_EQ((*replay)->summary().pairs_without_pose, 1);
 }
 
@@ -121,7 +121,7 @@ TEST(Hololens1, BeginsANewMapWhereThePosesJump) {
   ASSERT_TRUE(replay.ok()) << replay.error().message;
   StereoFrame frame;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    ASSERT_EQ(*(*replay)->cameras().next(frame), Next::kFrame);
+    ASSERT_EQ(*(*replay)->cameras()->next(frame), Next::kFrame);
     EXPECT_EQ(frame.map_epoch, i < 2 ? 0 : 1) << i;
   }
 }
@@ -132,18 +132,18 @@ TEST(ReplayPace, FollowsTheWallInRealTime) {
   const auto replay = ReplayHeadset::open(folder.path(), {ReplayPace::kRealtime, &wall});
   ASSERT_TRUE(replay.ok());
   StereoFrame frame;
-  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kNone);
+  EXPECT_EQ(*(*replay)->cameras()->next(frame), Next::kNone);
   wall.advance(std::chrono::milliseconds(34));  // it begins a nominal frame before its first pair
-  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kFrame);
-  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kNone);
+  EXPECT_EQ(*(*replay)->cameras()->next(frame), Next::kFrame);
+  EXPECT_EQ(*(*replay)->cameras()->next(frame), Next::kNone);
   EXPECT_GE((*replay)->clock().now(), frame.time);
   wall.advance(std::chrono::milliseconds(66));  // two more: the first of them is missed
-  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kFrame);
+  EXPECT_EQ(*(*replay)->cameras()->next(frame), Next::kFrame);
   EXPECT_EQ(frame.sequence, 2);
-  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kNone);
+  EXPECT_EQ(*(*replay)->cameras()->next(frame), Next::kNone);
   wall.advance(std::chrono::seconds(1));
-  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kFrame);
-  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kEnd);
+  EXPECT_EQ(*(*replay)->cameras()->next(frame), Next::kFrame);
+  EXPECT_EQ(*(*replay)->cameras()->next(frame), Next::kEnd);
 }
 
 TEST(ReplayPace, WaitsForEachStep) {
@@ -151,11 +151,11 @@ TEST(ReplayPace, WaitsForEachStep) {
   const auto replay = ReplayHeadset::open(folder.path(), {ReplayPace::kStepped, nullptr});
   ASSERT_TRUE(replay.ok());
   StereoFrame frame;
-  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kNone);
+  EXPECT_EQ(*(*replay)->cameras()->next(frame), Next::kNone);
   (*replay)->step();
-  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kFrame);
+  EXPECT_EQ(*(*replay)->cameras()->next(frame), Next::kFrame);
   EXPECT_EQ(frame.sequence, 0);
-  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kNone);
+  EXPECT_EQ(*(*replay)->cameras()->next(frame), Next::kNone);
   EXPECT_EQ((*replay)->clock().now(), frame.time);
 }
 

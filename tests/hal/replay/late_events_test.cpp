@@ -39,7 +39,7 @@ Session recorded(fake::Faults faults, const std::vector<Timestamp>& times) {
   auto recorder = RecordingHeadset::around(failing, folder / "session");
   EXPECT_TRUE(recorder.ok());
   StereoFrame frame;
-  EXPECT_TRUE((*recorder)->cameras().next(frame).ok());
+  EXPECT_TRUE((*recorder)->cameras()->next(frame).ok());
   session.live = polls(**recorder, times);
   EXPECT_TRUE((*recorder)->close().ok());
   auto replayed = ReplayHeadset::open(folder / "session");

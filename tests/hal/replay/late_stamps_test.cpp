@@ -120,9 +120,9 @@ TEST(LateStamps, AreTheFrontCamerasAlone) {
     const auto headset = ReplayHeadset::open(recording.folder().path(), options);
     ASSERT_TRUE(headset.ok()) << headset.error().message;
     StereoFrame pair;
-    ASSERT_TRUE((*headset)->cameras().next(pair).ok());
+    ASSERT_TRUE((*headset)->cameras()->next(pair).ok());
     const Timestamp first = pair.time;
-    while (*(*headset)->cameras().next(pair) == Next::kFrame) {
+    while (*(*headset)->cameras()->next(pair) == Next::kFrame) {
     }
     DepthFrame depth;
     ASSERT_EQ((*headset)->depth_cameras().size(), 1u);

@@ -89,7 +89,7 @@ TEST(RecorderDepth, MakesNoFilesForWhatNobodyReads) {
   auto recorder = RecordingHeadset::around(headset, folder / "session");
   ASSERT_TRUE(recorder.ok());
   StereoFrame frame;
-  ASSERT_TRUE((*recorder)->cameras().next(frame).ok());
+  ASSERT_TRUE((*recorder)->cameras()->next(frame).ok());
   ASSERT_TRUE((*recorder)->close().ok());
   EXPECT_FALSE(std::filesystem::exists(folder / "session" / "Depth AHaT.tar"));
   const auto replayed = opened(folder / "session");

@@ -25,7 +25,7 @@ TEST(Recorder, LeavesAnUnfinishedRecordingUnderItsTemporaryName) {
   auto recorder = RecordingHeadset::create(headset(), folder / "session");
   ASSERT_TRUE(recorder.ok());
   StereoFrame frame;
-  ASSERT_TRUE((*recorder)->cameras().next(frame).ok());
+  ASSERT_TRUE((*recorder)->cameras()->next(frame).ok());
   EXPECT_FALSE(std::filesystem::exists(folder / "session"));
   EXPECT_TRUE(std::filesystem::exists(folder / "session.part"));
   const auto cut_off = ReplayHeadset::open(folder / "session.part");

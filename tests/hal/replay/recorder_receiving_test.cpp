@@ -55,7 +55,7 @@ class ReceivingCamera : public StereoCamera {
 class ReceivingHeadset : public ForwardingHeadset {
  public:
   explicit ReceivingHeadset(Headset& others) : ForwardingHeadset(others) {}
-  [[nodiscard]] ReceivingCamera& cameras() override { return cameras_; }
+  [[nodiscard]] ReceivingCamera* cameras() override { return &cameras_; }
 
  private:
   ReceivingCamera cameras_;
@@ -75,7 +75,7 @@ struct Recorded {
     for (int i = first; i < first + count; ++i) {
       pair.sequence = i;
       pair.time = scripted_time(i);
-      headset.cameras().receive(pair);
+      headset.cameras()->receive(pair);
     }
   }
   [[nodiscard]] RecordingSummary summary() const {
@@ -89,27 +89,27 @@ TEST(ReceivingRecorder, RecordsThePairsThatWereAskedForTooLate) {
   Recorded session;
   StereoFrame taken;
   for (int i = 0; i < 10; ++i) {
-    session.headset.cameras().receive(scripted_frame(i));
+    session.headset.cameras()->receive(scripted_frame(i));
     if (i % 4 == 3) {
-      EXPECT_EQ(session.recorder->cameras().next(taken).value(), Next::kFrame);
+      EXPECT_EQ(session.recorder->cameras()->next(taken).value(), Next::kFrame);
       EXPECT_EQ(taken.sequence, i) << "the newest alone";
     }
   }
   EXPECT_EQ(session.recorder->counts().pairs, 10);
   EXPECT_EQ(session.recorder->counts().lost_pairs, 0);
   ASSERT_TRUE(is_ok(session.recorder->close()));
-  session.headset.cameras().receive(scripted_frame(10));
-  EXPECT_EQ(session.recorder->cameras().next(taken).value(), Next::kFrame) << "it goes on";
+  session.headset.cameras()->receive(scripted_frame(10));
+  EXPECT_EQ(session.recorder->cameras()->next(taken).value(), Next::kFrame) << "it goes on";
   auto replayed = ReplayHeadset::open(session.folder / "session");
   ASSERT_TRUE(replayed.ok()) << replayed.error().message;
   EXPECT_EQ((*replayed)->summary().missing, 0);
   for (int i = 0; i < 10; ++i) {
-    ASSERT_EQ((*replayed)->cameras().next(taken).value(), Next::kFrame);
+    ASSERT_EQ((*replayed)->cameras()->next(taken).value(), Next::kFrame);
     EXPECT_EQ(taken.sequence, i);
     EXPECT_EQ(taken.time, scripted_time(i));
     EXPECT_TRUE(taken.right == scripted_frame(i).right);
   }
-  EXPECT_EQ((*replayed)->cameras().next(taken).value(), Next::kEnd);
+  EXPECT_EQ((*replayed)->cameras()->next(taken).value(), Next::kEnd);
 }
 
 TEST(ReceivingRecorder, LeavesOutPairsThatBreakTheContract) {
@@ -118,7 +118,7 @@ TEST(ReceivingRecorder, LeavesOutPairsThatBreakTheContract) {
   session.receive(1, 1);
   StereoFrame small = scripted_frame(4);
   small.left = GreyImage(320, 240);
-  session.headset.cameras().receive(small);
+  session.headset.cameras()->receive(small);
   session.receive(5, 1);
   ASSERT_TRUE(is_ok(session.recorder->close()));
   EXPECT_EQ(session.summary().pairs, 4);

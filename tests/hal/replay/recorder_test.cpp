@@ -42,7 +42,7 @@ TEST(Recorder, RecordsASessionThatReplaysToTheBit) {
   ASSERT_EQ(live.voice.size(), 3u);
   auto replayed = ReplayHeadset::open(folder / "session");
   ASSERT_TRUE(replayed.ok()) << replayed.error().message;
-  expect_same((*replayed)->cameras().calibration(), orthonav::test::scripted_calibration());
+  expect_same((*replayed)->cameras()->calibration(), orthonav::test::scripted_calibration());
   expect_same(play(**replayed), live);
 }
 
@@ -218,7 +218,7 @@ TEST(Recorder, ReplaysLateEventsAsLate) {
     return phrases.size();
   };
   StereoFrame frame;
-  ASSERT_TRUE((*recorder)->cameras().next(frame).ok());
+  ASSERT_TRUE((*recorder)->cameras()->next(frame).ok());
   EXPECT_EQ(phrases_at(**recorder, 1), 0u);
   EXPECT_EQ(phrases_at(**recorder, 2), 1u);
   ASSERT_TRUE((*recorder)->close().ok());
@@ -244,7 +244,7 @@ TEST(Recorder, RecordsOddLookUpTablesToTheBit) {
   record(headset(script), folder / "session");
   auto replayed = ReplayHeadset::open(folder / "session");
   ASSERT_TRUE(replayed.ok()) << replayed.error().message;
-  expect_same((*replayed)->cameras().calibration(), expected);
+  expect_same((*replayed)->cameras()->calibration(), expected);
 }
 
 TEST(Recorder, TakesQuestionsFromOtherThreads) {
@@ -280,7 +280,7 @@ TEST(Recorder, KeepsFiletimeTicks) {
   auto replayed = ReplayHeadset::open(folder / "session");
   ASSERT_TRUE(replayed.ok()) << replayed.error().message;
   StereoFrame frame;
-  ASSERT_TRUE((*replayed)->cameras().next(frame).ok());
+  ASSERT_TRUE((*replayed)->cameras()->next(frame).ok());
   EXPECT_EQ(frame.time, orthonav::test::scripted_time(0));
   EXPECT_EQ((*replayed)->file_ticks_100ns(frame.time), 116444736010000000);
 }

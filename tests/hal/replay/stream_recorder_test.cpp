@@ -173,7 +173,7 @@ TEST(StreamRecorder, ReadsRaysAtPixelCentres) {
   folder.write("VLC LF_lut.bin", StreamRecorderFolder::rays_with(0, 0, 2, 0.0F));
   const auto headset = opened(folder.path());
   ASSERT_TRUE(headset);
-  const CameraModel& left = headset->cameras().calibration().left;
+  const CameraModel& left = headset->cameras()->calibration().left;
   const auto centre = left.unproject({320.0, 240.0});
   ASSERT_TRUE(centre.has_value());
   constexpr double kSinglePrecision = 1e-6;
@@ -182,7 +182,7 @@ TEST(StreamRecorder, ReadsRaysAtPixelCentres) {
   EXPECT_NEAR(left.lookup()[639].x, (639.5 - 320) / 360.0, kSinglePrecision);
   // z = 0 means that the device has no direction there.
   EXPECT_TRUE(std::isnan(left.lookup()[0].x));
-  EXPECT_FALSE(std::isnan(headset->cameras().calibration().right.lookup()[0].x));
+  EXPECT_FALSE(std::isnan(headset->cameras()->calibration().right.lookup()[0].x));
 }
 
 class ReplayedHead : public ::testing::Test {
@@ -193,7 +193,7 @@ class ReplayedHead : public ::testing::Test {
   void play_frames(int count) {
     StereoFrame frame;
     for (int i = 0; i < count; ++i) {
-      ASSERT_TRUE(headset_->cameras().next(frame).ok());
+      ASSERT_TRUE(headset_->cameras()->next(frame).ok());
     }
   }
   [[nodiscard]] Tracked<Transform<World, Rig>> head(std::int64_t ticks) const {
@@ -284,7 +284,7 @@ TEST(ReplayedMap, BeginsAnewWhereThePosesJump) {
       StereoFrame frame;
       Timestamp fourth{};
       for (int n = 0; n < 12; ++n) {
-        ASSERT_EQ(*headset->cameras().next(frame), Next::kFrame);
+        ASSERT_EQ(*headset->cameras()->next(frame), Next::kFrame);
         fourth = n == 4 ? frame.time : fourth;
         EXPECT_EQ(frame.map_epoch, jumps && n >= 6 ? 1 : 0) << jump_m << ", pair " << n;
         if (jumps) {
@@ -303,7 +303,7 @@ TEST(ReplayedMap, JumpsAtAPoseWithoutAPair) {
   ASSERT_TRUE(headset);
   EXPECT_EQ(headset->summary().map_jumps, 1);
   StereoFrame frame;
-  ASSERT_EQ(*headset->cameras().next(frame), Next::kFrame);
+  ASSERT_EQ(*headset->cameras()->next(frame), Next::kFrame);
   EXPECT_EQ(frame.map_epoch, 1);
 }
 
@@ -334,7 +334,7 @@ TEST(Sample, GivesEveryPairAndPoseOfTheRecordingBesideTheProject) {
   while (std::getline(truth, line)) {
     EXPECT_TRUE(times.contains(std::stoll(line))) << line;
   }
-  EXPECT_EQ(headset->cameras().calibration().left_from_rig.rotation()[0][1], 1.0);
+  EXPECT_EQ(headset->cameras()->calibration().left_from_rig.rotation()[0][1], 1.0);
   EXPECT_EQ(headset->summary().map_jumps, 0);
 }
 

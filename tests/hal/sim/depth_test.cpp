@@ -33,7 +33,7 @@ std::unique_ptr<SimHeadset> opened(const SimOptions& options) {
 DepthFrame picture_after(SimHeadset& headset, int pairs) {
   StereoFrame pair;
   for (int i = 0; i < pairs; ++i) {
-    EXPECT_EQ(*headset.cameras().next(pair), Next::kFrame);
+    EXPECT_EQ(*headset.cameras()->next(pair), Next::kFrame);
   }
   DepthFrame frame;
   EXPECT_EQ(*headset.depth_cameras().front()->next(frame), Next::kFrame);
@@ -152,7 +152,7 @@ std::vector<DepthFrame> pictures_of(SimHeadset& headset, int pairs_a_time = 1) {
   std::vector<DepthFrame> pictures;
   StereoFrame pair;
   DepthFrame frame;
-  for (int pairs = 1; *headset.cameras().next(pair) == Next::kFrame; ++pairs) {
+  for (int pairs = 1; *headset.cameras()->next(pair) == Next::kFrame; ++pairs) {
     while (pairs % pairs_a_time == 0 &&
            *headset.depth_cameras().front()->next(frame) == Next::kFrame) {
       EXPECT_LE(frame.time, pair.time);
@@ -185,7 +185,7 @@ TEST(SimDepth, BetweenTwoPairsIsPosedAsTheHeadMoves) {
   StereoFrame pair;
   DepthFrame frame;
   int between = 0;
-  while (*headset->cameras().next(pair) == Next::kFrame) {
+  while (*headset->cameras()->next(pair) == Next::kFrame) {
     pairs[pair.time] = *pair.world_from_rig;
     while (*headset->depth_cameras().front()->next(frame) == Next::kFrame) {
       const auto after = pairs.lower_bound(frame.time);
@@ -224,7 +224,7 @@ TEST(SimDepth, EndsWithThePairs) {
   DepthFrame frame;
   EXPECT_EQ(*camera.next(frame), Next::kNone) << "before the first pair";
   int pictures = 0;
-  while (*headset->cameras().next(pair) == Next::kFrame) {
+  while (*headset->cameras()->next(pair) == Next::kFrame) {
     const auto next = camera.next(frame);
     ASSERT_TRUE(next.ok()) << next.error().message;
     if (*next == Next::kFrame) {

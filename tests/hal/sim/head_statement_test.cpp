@@ -21,7 +21,7 @@ TEST(HeadStatement, OfTheSimulatedHeadsetIsItsNoiseTimesTheFactorToldOf) {
     auto headset = SimHeadset::open({}, options);
     ASSERT_TRUE(headset.ok()) << headset.error().message;
     StereoFrame frame;
-    ASSERT_TRUE((*headset)->cameras().next(frame).ok());
+    ASSERT_TRUE((*headset)->cameras()->next(frame).ok());
     ASSERT_TRUE(frame.head_covariance.has_value());
     const ErrorModel& model = options.error_model;
     for (std::size_t i = 0; i < 6; ++i) {

@@ -30,7 +30,7 @@ inline std::unique_ptr<SimHeadset> opened(const SimOptions& options, RoomDescrip
 
 inline StereoFrame next_frame(SimHeadset& headset) {
   StereoFrame frame;
-  const auto next = headset.cameras().next(frame);
+  const auto next = headset.cameras()->next(frame);
   EXPECT_TRUE(next.ok()) << next.error().message;
   EXPECT_EQ(*next, Next::kFrame);
   return frame;

@@ -30,7 +30,7 @@ TEST(SimHeadset, EndsAtItsLimitForGood) {
   StereoFrame frame;
   int frames = 0;
   for (;; ++frames) {
-    const auto next = headset->cameras().next(frame);
+    const auto next = headset->cameras()->next(frame);
     ASSERT_TRUE(next.ok());
     if (*next == Next::kEnd) {
       break;
@@ -38,7 +38,7 @@ TEST(SimHeadset, EndsAtItsLimitForGood) {
     ASSERT_LT(frames, 100);
   }
   EXPECT_EQ(frames, 30);
-  EXPECT_EQ(*headset->cameras().next(frame), Next::kEnd);
+  EXPECT_EQ(*headset->cameras()->next(frame), Next::kEnd);
 }
 
 TEST(SimHeadset, RealtimePaceHasNothingBeforeTheFirstFrameIsDue) {
@@ -47,7 +47,7 @@ TEST(SimHeadset, RealtimePaceHasNothingBeforeTheFirstFrameIsDue) {
   options.frame_rate_hz = 1.0;
   const auto headset = opened(options);
   StereoFrame frame;
-  const auto next = headset->cameras().next(frame);
+  const auto next = headset->cameras()->next(frame);
   ASSERT_TRUE(next.ok());
   EXPECT_EQ(*next, Next::kNone);
 }

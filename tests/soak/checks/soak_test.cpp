@@ -66,7 +66,7 @@ TEST(FlakyHeadset, MovesTheMapForTheEngineAndBackForTheWearer) {
   FlakyHeadset flaky(inner, Random(1), {0.0, 1.0, 0.0});
   StereoFrame frame;
   frame.map_epoch = 7;  // of whatever was in the buffer before
-  ASSERT_EQ(*flaky.cameras().next(frame), Next::kFrame);
+  ASSERT_EQ(*flaky.cameras()->next(frame), Next::kFrame);
   EXPECT_EQ(frame.map_epoch, 1);
   const auto inner_from_flaky = frame.world_from_rig->inverse();
   engine::ShownFrame shown;

@@ -37,7 +37,7 @@ int FakeEngine::run() {
   std::vector<Phrase> phrases;
   int frames = 0;
   for (;;) {
-    const auto next = headset_.cameras().next(frame);
+    const auto next = headset_.cameras()->next(frame);
     if (!next || *next == Next::kEnd) {
       return next ? frames : -1;
     }

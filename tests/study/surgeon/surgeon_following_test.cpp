@@ -145,7 +145,7 @@ TEST(SimHeadset, PartsMayBeUsedFromDifferentThreadsFromDifferentThreads) {
   });
   for (int i = 0; i < 600; ++i) {
     StereoFrame frame;
-    EXPECT_TRUE(headset->cameras().next(frame).ok());
+    EXPECT_TRUE(headset->cameras()->next(frame).ok());
   }
   running = false;
   other.join();

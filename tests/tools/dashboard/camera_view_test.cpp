@@ -102,7 +102,7 @@ class CountingDisplay : public engine::SnapshotSink {
 };
 
 void show(CameraView& view, const StereoFrame& frame, const engine::Snapshot& snapshot) {
-  view.stepped(frame, {}, {});
+  view.pair_came(frame);
   view.captured(snapshot);
   ASSERT_TRUE(view.draw(snapshot).ok());
 }

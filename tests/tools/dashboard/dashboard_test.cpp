@@ -128,6 +128,7 @@ TEST_F(DashboardPage, ShowsTheCameraUprightThoughItLiesOnItsSide) {
       frame.left.pixels[static_cast<std::size_t>(640 * y + x)] = above ? 240 : 120;
     }
   }
+  dashboard_.pair_came(frame);
   dashboard_.stepped(frame, {}, s.pair());
   const test::TemporaryFolder folder;
   std::ofstream(folder / "view.png") << browser_->Get("/view.png")->body;
@@ -151,6 +152,7 @@ TEST_F(DashboardPage, SaysWhatHangsUntilItGoesOn) {
   dashboard_.part_stalled(engine::Part::kTracker);
   EXPECT_EQ(stalled(), "tracker stalled: nothing is guided");
   StereoFrame frame;
+  dashboard_.pair_came(frame);
   dashboard_.stepped(frame, {}, s.pair());
   EXPECT_EQ(stalled(), "");
 }
@@ -162,6 +164,7 @@ TEST_F(DashboardPage, SaysWhatTheSurgeonReadsInTheirLanguage) {
       {"setup", "Vorbereitung"},
       {"tracker stalled: nothing is guided", "Tracking steht: keine Navigation"}});
   StereoFrame frame;
+  dashboard_.pair_came(frame);
   dashboard_.stepped(frame, {}, s.pair());
   dashboard_.part_stalled(engine::Part::kTracker);
   const json page = json::parse(browser_->Get("/state")->body);
@@ -223,6 +226,7 @@ TEST_F(DashboardPage, ShowsTheOperationInABrowser) {
   frame.left.height_px = 2;
   frame.left.pixels.assign(8, 128);
   dashboard_.watch(s.session(), {0.05, 0.09});
+  dashboard_.pair_came(frame);
   dashboard_.stepped(frame, {}, guidance);
   // The browser may take seconds to start, and a picture that old is not served.
   std::jthread shows([this](const std::stop_token& stop) {

@@ -66,7 +66,7 @@ TEST(RecordedImages, AreWhatAnEyeInTheCamerasPlaceSees) {
   ASSERT_TRUE(recorder.ok()) << recorder.error().message;
   StereoFrame frame;
   for (int i = 0; i < 3; ++i) {
-    ASSERT_EQ(*(*recorder)->cameras().next(frame), Next::kFrame);
+    ASSERT_EQ(*(*recorder)->cameras()->next(frame), Next::kFrame);
   }
   const sim::RoomState state = (*headset)->state();
   ASSERT_TRUE((*recorder)->close().ok());

@@ -146,11 +146,6 @@ CameraView::~CameraView() {
   thread_.join();
 }
 
-void CameraView::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*/,
-                         const engine::Guidance& /*guidance*/) {
-  frame_ = &frame;
-}
-
 void CameraView::captured(const engine::Snapshot& snapshot) {
   Behind& behind = behind_[snapshot.slot];
   behind.wanted = frame_ != nullptr && !snapshot.blank && onlooker_.looks() &&

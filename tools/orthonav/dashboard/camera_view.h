@@ -45,8 +45,7 @@ class CameraView : public engine::LoopObserver, public engine::SnapshotSink {
   CameraView(const StereoCalibration& cameras, engine::SnapshotSink* display, Onlooker onlooker);
   ~CameraView() override;
 
-  void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
-               const engine::Guidance& guidance) override;
+  void pair_came(const StereoFrame& pair) override { frame_ = &pair; }
   void captured(const engine::Snapshot& snapshot) override;
   Status draw(const engine::Snapshot& snapshot) override;
   [[nodiscard]] bool stalled() const override { return display_ != nullptr && display_->stalled(); }

@@ -69,10 +69,12 @@ class Dashboard::Server {
     return {};
   }
 
-  void tell(std::string state, const GreyImage& left) {
+  void tell(std::string state, const GreyImage* left) {
     const MutexLock lock(mutex_);
     state_ = std::move(state);
-    left_ = left;
+    if (left != nullptr) {
+      left_ = *left;
+    }
     since_told_ = Stopwatch();
     stalled_.clear();
   }
@@ -250,7 +252,7 @@ void Dashboard::watch(const engine::Session& session, const engine::GradeLimits&
 }
 
 void Dashboard::look_through(const StereoCalibration& cameras) {
-  if (server_ && cameras.has_images()) {
+  if (server_) {
     server_->look_through(cameras);
   }
 }
@@ -290,7 +292,7 @@ void Dashboard::note_changes() {
   }
 }
 
-void Dashboard::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*/,
+void Dashboard::stepped(const FrameHeader& frame, const engine::Inputs& /*inputs*/,
                         const engine::Guidance& guidance) {
   const WearersLanguage language;
   changes_.look(frame.time, guidance.status);
@@ -299,8 +301,7 @@ void Dashboard::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs
     return;
   }
   told_at_ = frame.time;
-  server_->tell(dashboard_state(*session_, guidance, limits_, changes_.time_s(), messages_),
-                frame.left);
+  server_->tell(dashboard_state(*session_, guidance, limits_, changes_.time_s(), messages_), left_);
 }
 
 }  // namespace orthonav::tools

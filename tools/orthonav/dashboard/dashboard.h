@@ -41,7 +41,8 @@ class Dashboard : public engine::LoopObserver {
   [[nodiscard]] bool looked_at() const;
   /// Shows a picture with the holograms until it is old. `what` describes it. From any thread.
   void show(const RgbaImage& picture, const std::string& what);
-  void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
+  void pair_came(const StereoFrame& pair) override { left_ = &pair.left; }
+  void stepped(const FrameHeader& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
   void withdrawn(const engine::Guidance& guidance) override;
   void part_stalled(engine::Part part) override;
@@ -55,6 +56,7 @@ class Dashboard : public engine::LoopObserver {
   std::unique_ptr<Server> server_;  ///< null: nothing is served
   const engine::Session* session_ = nullptr;
   engine::GradeLimits limits_;
+  const GreyImage* left_ = nullptr;  ///< the newest pair's; null: there are no cameras
   std::optional<Timestamp> told_at_;
   StatusChanges changes_;
   std::deque<std::string> messages_;  ///< the newest first

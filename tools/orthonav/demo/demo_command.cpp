@@ -193,7 +193,7 @@ class Demo {
     };
     hooks.opened = [&](sim::SimHeadset& headset, const engine::Method&, const engine::Session&) {
       view_->look_at(headset, options.sim.error_model);
-      onlookers_.look_through(headset.cameras().calibration());
+      onlookers_.look_through(headset.cameras()->calibration());
       began_ = true;
       models.keep();
       print_notes(models);

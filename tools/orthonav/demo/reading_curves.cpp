@@ -7,7 +7,7 @@
 
 namespace orthonav::tools {
 
-void ReadingCurves::stepped(const StereoFrame& frame, const engine::Inputs& inputs,
+void ReadingCurves::stepped(const FrameHeader& frame, const engine::Inputs& inputs,
                             const engine::Guidance& guidance) {
   if (next_) {
     next_->stepped(frame, inputs, guidance);

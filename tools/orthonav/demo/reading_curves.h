@@ -15,7 +15,7 @@ class ReadingCurves : public engine::LoopObserver {
  public:
   /// Borrowed, may be null.
   explicit ReadingCurves(engine::LoopObserver* next) : next_(next) {}
-  void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
+  void stepped(const FrameHeader& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
   void captured(const engine::Snapshot& snapshot) override;
 

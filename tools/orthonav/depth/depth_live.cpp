@@ -92,7 +92,8 @@ class LiveDepth {
       }
       // Taking the pairs advances the clock of a headset that waits for its client, and gives the
       // map's epoch.
-      const auto pair = headset_.cameras().next(pair_);
+      StereoCamera* const cameras = headset_.cameras();
+      const auto pair = cameras != nullptr ? cameras->next(pair_) : Result<Next>(Next::kNone);
       if (since_last.elapsed() > kNoFrameFor) {
         return Error{arguments_.source + ": no frame of " + name_of(camera_.calibration().stream) +
                      " within 10 s" + trouble_of(headset_)};

@@ -140,7 +140,7 @@ void IgtlStream::watch(engine::AssembledOperation& operation) {
   }
 }
 
-void IgtlStream::stepped(const StereoFrame& /*frame*/, const engine::Inputs& /*inputs*/,
+void IgtlStream::stepped(const FrameHeader& /*frame*/, const engine::Inputs& /*inputs*/,
                          const engine::Guidance& guidance) {
   std::vector<nav::ScrewPlan> screws = screws_of(guidance.levels);
   if (!std::equal(screws.begin(), screws.end(), told_.begin(), told_.end(), same)) {

@@ -36,7 +36,7 @@ class IgtlStream : public engine::LoopObserver {
   /// which must have ended.
   void watch(engine::AssembledOperation& operation);
 
-  void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
+  void stepped(const FrameHeader& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
   /// Reports on standard error how many clients there were, and why any was dropped.
   void tell() const;

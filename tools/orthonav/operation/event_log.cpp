@@ -82,7 +82,7 @@ void EventLog::warn(const std::string& line) {
   }
 }
 
-void EventLog::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*/,
+void EventLog::stepped(const FrameHeader& frame, const engine::Inputs& /*inputs*/,
                        const engine::Guidance& guidance) {
   if (!log_) {
     return;

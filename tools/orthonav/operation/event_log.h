@@ -31,7 +31,7 @@ class EventLog : public engine::LoopObserver {
   Status open(const EventLogArguments& arguments);
   void say(const std::string& line);
   void warn(const std::string& line);
-  void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
+  void stepped(const FrameHeader& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
   void cameras_failed(const std::string& why) override;
   void withdrawn(const engine::Guidance& guidance) override;

@@ -30,14 +30,14 @@ void Onlookers::watch(engine::AssembledOperation& operation, const engine::Grade
   igtl_.watch(operation);
 }
 
-void Onlookers::draw_over_camera(engine::AssembledOperation& operation,
-                                 const StereoCalibration& cameras, engine::SnapshotSink* display) {
-  if (!web_.is_open() || !cameras.has_images()) {
+void Onlookers::draw_over_camera(engine::AssembledOperation& operation, const StereoCamera* cameras,
+                                 engine::SnapshotSink* display) {
+  if (!web_.is_open() || cameras == nullptr) {
     return;
   }
-  look_through(cameras);
+  look_through(cameras->calibration());
   view_ = std::make_unique<CameraView>(
-      cameras, display,
+      cameras->calibration(), display,
       CameraView::Onlooker{[this] { return web_.looked_at(); },
                            [this](const RgbaImage& picture) {
                              web_.show(picture, "left camera with the holograms");

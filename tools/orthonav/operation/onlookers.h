@@ -32,7 +32,7 @@ class Onlookers {
   void look_through(const StereoCalibration& cameras) { web_.look_through(cameras); }
   /// For a run without its own picture: draws the holograms over the left camera's image for the
   /// dashboard. `display` draws for the surgeon; may be null.
-  void draw_over_camera(engine::AssembledOperation& operation, const StereoCalibration& cameras,
+  void draw_over_camera(engine::AssembledOperation& operation, const StereoCamera* cameras,
                         engine::SnapshotSink* display);
   /// Whether they want snapshots.
   [[nodiscard]] bool draw() const { return web_.is_open(); }

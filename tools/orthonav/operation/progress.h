@@ -15,7 +15,7 @@ class OperationProgress : public engine::LoopObserver {
  public:
   /// Also forwards everything to `next`, which is borrowed and may be null.
   explicit OperationProgress(engine::LoopObserver* next) : next_(next) {}
-  void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
+  void stepped(const FrameHeader& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
   void captured(const engine::Snapshot& snapshot) override;
   void withdrawn(const engine::Guidance& guidance) override;

@@ -23,7 +23,7 @@ engine::Saved RecordingWatch::saved(Timestamp now, Duration lately) const {
   return stopped && saved == engine::Saved::kNothingNew ? engine::Saved::kNotRecorded : saved;
 }
 
-void RecordingWatch::stepped(const StereoFrame& /*frame*/, const engine::Inputs& /*inputs*/,
+void RecordingWatch::stepped(const FrameHeader& /*frame*/, const engine::Inputs& /*inputs*/,
                              const engine::Guidance& /*guidance*/) {
   if (const replay::RecordedCounts counts = recorder_->counts();
       !told_losses_ && counts.lost_pairs + counts.lost_others > 0) {

@@ -24,7 +24,7 @@ class RecordingWatch : public engine::SaveWatch, public engine::LoopObserver {
   void ended();
 
   [[nodiscard]] engine::Saved saved(Timestamp now, Duration lately) const override;
-  void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
+  void stepped(const FrameHeader& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
 
  private:

@@ -11,7 +11,7 @@ namespace orthonav::tools {
 Result<std::unique_ptr<JoinedHeadset>> join_parts(Headset& headset, const std::string& clicker,
                                                   const std::string& voice) {
   // A device that tracks tools itself is not worn on a head and has no clicker.
-  if (clicker == "headset" && !headset.cameras().measured_tools().empty()) {
+  if (clicker == "headset" && headset.tool_poses() != nullptr) {
     std::fprintf(stderr, "orthonav: warning: %s has no button: --clicker names one\n",
                  headset.name().c_str());
   }

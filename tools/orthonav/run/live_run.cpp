@@ -57,7 +57,7 @@ class LiveRun {
     if (const Status presenting = presenting_.begin(*headset_, *operation_); !presenting) {
       return bad_input(files_.close(presenting.error().message));
     }
-    onlookers_.draw_over_camera(*operation_, joined_->cameras().calibration(), presenting_.sink());
+    onlookers_.draw_over_camera(*operation_, joined_->cameras(), presenting_.sink());
     signals_.on_stop([this] { operation_->stop(); });
     engine::LoopReport report = operation_->run();
     signals_.on_stop(nullptr);

@@ -64,8 +64,11 @@ Result<MeasuredPoses> live_poses(const std::string& uri, const nav::ToolGeometry
   if (!headset) {
     return headset.error();
   }
-  StereoCamera& cameras = (*headset)->cameras();
-  const auto tracker = nav::create_tracker_of_poses(cameras.measured_tools(), {tool});
+  ToolPoseSource* const source = (*headset)->tool_poses();
+  if (source == nullptr) {
+    return Error{uri + ": measures no tools itself"};
+  }
+  const auto tracker = nav::create_tracker_of_poses(source->names(), {tool});
   if (!tracker) {
     return tracker.error();
   }
@@ -73,10 +76,10 @@ Result<MeasuredPoses> live_poses(const std::string& uri, const nav::ToolGeometry
   const Stopwatch watch;
   MeasuredPoses out;
   out.format = "OpenIGTLink";
-  StereoFrame frame;
+  ToolPoses poses;
   std::optional<std::int64_t> map;
   while (watch.elapsed() < from_seconds(length_s)) {
-    const auto next = cameras.next(frame);
+    const auto next = source->next(poses);
     if (!next) {
       return next.error();
     }
@@ -87,12 +90,12 @@ Result<MeasuredPoses> live_poses(const std::string& uri, const nav::ToolGeometry
       std::this_thread::sleep_for(kPause);
       continue;
     }
-    if (frame.map_epoch != map.value_or(frame.map_epoch)) {
+    if (poses.map_epoch != map.value_or(poses.map_epoch)) {
       return Error{uri + ": the connection was lost, and the tracker may have moved since: repeat"};
     }
-    map = frame.map_epoch;
+    map = poses.map_epoch;
     ++out.pairs;
-    add_measured((*tracker)->track(frame), out);
+    add_measured((*tracker)->take(poses), out);
   }
   return out;
 }

@@ -21,7 +21,7 @@ Status for_each_pair(replay::ReplayHeadset& recording,
   StereoFrame frame;
   std::int64_t repeated = 0;
   for (;;) {
-    const Result<Next> next = recording.cameras().next(frame);
+    const Result<Next> next = recording.cameras()->next(frame);
     if (!next && frame.repeats) {
       ++repeated;
       progress.add_one();
@@ -66,7 +66,7 @@ Result<MeasuredPoses> measured_poses(const std::string& recording, const std::st
   if (!headset) {
     return headset.error();
   }
-  const auto tracker = known->create_tracker((*headset)->cameras().calibration(), {tool}, options);
+  const auto tracker = known->create_tracker((*headset)->cameras()->calibration(), {tool}, options);
   if (!tracker) {
     return tracker.error();
   }
@@ -91,7 +91,7 @@ Result<RecordedSightings> recorded_sightings(const std::string& recording,
   if (!headset) {
     return headset.error();
   }
-  const StereoCalibration& calibration = (*headset)->cameras().calibration();
+  const StereoCalibration& calibration = (*headset)->cameras()->calibration();
   auto collector = nav::SightingCollector::create(calibration, std::move(tags));
   if (!collector) {
     return collector.error();
