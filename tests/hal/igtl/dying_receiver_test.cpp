@@ -68,14 +68,14 @@ TEST(DyingPoseReceiver, SaysOfWhatAtEveryCallSoThatTheRunEnds) {
   PoseReceiver receiver(net::resolve("127.0.0.1").value(), *options);
   server.accept();
   const auto message = large_message();
-  StereoFrame frame;
+  ToolPoses poses;
   {
     const orthonav::test::AllocationLimit limit(32u << 10u);
     server.send(message);
-    ASSERT_TRUE(wait_until([&] { return !receiver.next(frame).ok(); }));
+    ASSERT_TRUE(wait_until([&] { return !receiver.next(poses).ok(); }));
   }
   for (int call = 0; call < 3; ++call) {
-    const auto next = receiver.next(frame);
+    const auto next = receiver.next(poses);
     ASSERT_FALSE(next.ok());
     EXPECT_EQ(next.error().message, "igtl: out of memory");
   }

@@ -90,7 +90,7 @@ TEST(IgtlCommand, AnswersWhatItsClientsAskWhereTheyMay) {
 /// A tracker that sends one pose after another.
 class Sender {
  public:
-  using Pose = Transform<Rig, Marker>;
+  using Pose = Transform<World, Marker>;
   explicit Sender(std::function<Pose(int)> pose =
                       [](int i) {
                         return Pose(Mat3::identity(), {1e-5 * i, 0.0, -1.0});
