@@ -1,9 +1,9 @@
 // Whole operations with the method's registration, and with that of nav/posterior in its place: the
 // same case, seeds and set-up, the measurement model with reference, closed loop and sleeved drill.
 //   bench_registered_operations --runs 12 [--first-seed 1] [--case DIR] [--levels L4,L5]
-// Prints a table. Of the method in use and of the one that is to come, beside each other: what was
-// completed, entry and angle of the screws, guides that were far off without a warning, how often
-// the guide's shown SDs held, attempts and points of a level, its digitization.
+// Prints a table. For either: how many operations were completed, entry and angle of the screws,
+// guides that were far off without a warning, how often the guide's shown SDs held, attempts and
+// points of a level, how long it was stroked.
 
 #include <algorithm>
 #include <CLI/CLI.hpp>
@@ -17,7 +17,6 @@
 #include "engine/case/case_file.h"
 #include "engine/case/tool_file.h"
 #include "engine/phantom/phantom.h"
-#include "nav/guidance/predicted_error.h"
 #include "nav/posterior/registered.h"
 #include "study/guided_statistics.h"
 #include "study/set_up.h"
@@ -27,19 +26,8 @@ namespace orthonav {
 namespace {
 
 Result<nav::Registration> by_posterior(const engine::RegistrationRequest& request) {
-  nav::PoseSearchRegistrationOptions options;
-  options.common = request.common;
-  options.tip_radius_m = request.tip_radius_m;
-  options.least_model_sd_m = request.least_model_sd_m;
-  options.shafts.assign(request.shafts.begin(), request.shafts.end());
-  for (const Timestamp time : request.times) {
-    options.times_s.push_back(seconds(time - request.times.front()));
-  }
-  options.targets = nav::entries_and_targets(request.screws);
-  for (const engine::NeighbouringLevel& level : request.neighbours) {
-    options.neighbours.push_back({level.label, level.model.get()});
-  }
-  return nav::posterior::register_by_posterior(request.model, request.points_in_world, options);
+  return nav::posterior::register_by_posterior(request.model, request.points_in_world,
+                                               engine::options_of(request));
 }
 
 /// Mean and SD.

@@ -50,8 +50,8 @@ function(orthonav_library name)
     orthonav_cold(orthonav_${name})
     orthonav_precompiled(orthonav_${name} COLD)
   elseif(ARG_EIGEN)
-    # GCC takes the longer for an operator of Eigen's the more of its types a unit has met: nav takes a tenth less
-    # in units of eight sources.
+    # The more of Eigen's types a unit has met, the longer GCC takes to resolve each of its operators: in units of
+    # eight sources nav compiles in a tenth less time.
     set_target_properties(orthonav_${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 8)
     orthonav_precompiled(orthonav_${name} EIGEN <Eigen/Dense>)
   else()
@@ -97,9 +97,9 @@ function(orthonav_warnings target)
 endfunction()
 
 # The standard library's headers that most sources include, and those given, read once for all libraries of a group,
-# which are compiled by the same options: what precompiles them for the first serves the others. For those who do not
-# change the code (ORTHONAV_WARNINGS): a missing include would be hidden, and GCC 12 wrongly warns of overflows in
-# strings that come from a precompiled header.
+# which are compiled with the same options: they are precompiled for the first and used by the others. Only where
+# warnings are off (ORTHONAV_WARNINGS, as in tools/demo): a missing include would be hidden, and GCC 12 wrongly warns
+# of overflows in strings that come from a precompiled header.
 function(orthonav_precompiled target group)
   if(ORTHONAV_WARNINGS OR NOT ORTHONAV_UNITY OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     return()

@@ -269,8 +269,8 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   // A frame will be submitted from now on; the images took a while to arrive.
   inputs.display_time = heard_at_ + headset_->display_latency();
   const bool measures_tools = headset_->tool_poses() != nullptr;
-  for (LoopObserver* observer : observers_) {
-    if (!measures_tools) {
+  if (!measures_tools) {
+    for (LoopObserver* observer : observers_) {
       observer->pair_came(frame_);
     }
   }

@@ -21,7 +21,7 @@ namespace orthonav::engine {
 class LoopObserver {
  public:
   virtual ~LoopObserver() = default;
-  /// The pair itself, before what is done with it; valid until the next.
+  /// The stereo pair, before it is processed; valid until the next one.
   virtual void pair_came(const StereoFrame& /*pair*/) {}
   virtual void stepped(const FrameHeader& /*frame*/, const Inputs& /*inputs*/,
                        const Guidance& /*guidance*/) {}

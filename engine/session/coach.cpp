@@ -141,8 +141,7 @@ void Coach::tell_ended() {
 
 void Coach::run() {
   // Whether another level fits better is checked for a real registration, not on partial strokes.
-  const auto result =
-      registrar_({*model_, points_, screws_, {}, common_, {}, {}, 0.0, 0.0, times_});
+  const auto result = registrar_({*model_, points_, screws_, {}, common_, {}, {}, times_});
   answer_ = result ? std::optional(coaching_from(*result)) : std::nullopt;
 }
 

@@ -34,17 +34,7 @@ Result<nav::Registration> by_paper(const RegistrationRequest& request) {
 }
 
 Result<nav::Registration> by_pose_search(const RegistrationRequest& request) {
-  nav::PoseSearchRegistrationOptions options;
-  options.common = request.common;
-  options.tip_radius_m = request.tip_radius_m;
-  options.least_model_sd_m = request.least_model_sd_m;
-  options.point_sd_m.assign(request.point_sd_m.begin(), request.point_sd_m.end());
-  options.shafts.assign(request.shafts.begin(), request.shafts.end());
-  options.targets = nav::entries_and_targets(request.screws);
-  for (const NeighbouringLevel& level : request.neighbours) {
-    options.neighbours.push_back({level.label, level.model.get()});
-  }
-  return nav::register_by_pose_search(request.model, request.points_in_world, options);
+  return nav::register_by_pose_search(request.model, request.points_in_world, options_of(request));
 }
 
 Error unknown(const std::string& name) {
@@ -52,6 +42,23 @@ Error unknown(const std::string& name) {
 }
 
 }  // namespace
+
+nav::PoseSearchRegistrationOptions options_of(const RegistrationRequest& request) {
+  nav::PoseSearchRegistrationOptions options;
+  options.common = request.common;
+  options.tip_radius_m = request.tip_radius_m;
+  options.least_model_sd_m = request.least_model_sd_m;
+  options.point_sd_m.assign(request.point_sd_m.begin(), request.point_sd_m.end());
+  options.shafts.assign(request.shafts.begin(), request.shafts.end());
+  for (const Timestamp time : request.times) {
+    options.times_s.push_back(seconds(time - request.times.front()));
+  }
+  options.targets = nav::entries_and_targets(request.screws);
+  for (const NeighbouringLevel& level : request.neighbours) {
+    options.neighbours.push_back({level.label, level.model.get()});
+  }
+  return options;
+}
 
 Result<Registrar> registrar_named(const std::string& name) {
   if (name == "best") {

@@ -24,11 +24,13 @@ struct RegistrationRequest {
   std::span<const double> point_sd_m{};
   /// The pointer's shaft at each point, from the tip back, unit vectors; empty if unknown.
   std::span<const Vec3> shafts{};
-  double tip_radius_m = 0.0;  ///< of a ball at the pointer's end; `paper` assumes a point
+  std::span<const Timestamp> times{};  ///< of each point; empty if unknown
+  double tip_radius_m = 0.0;           ///< of a ball at the pointer's end; `paper` assumes a point
   /// SD over the bone by which the model differs from it, at least; `paper` asks for none.
   double least_model_sd_m = 0.0;
-  std::span<const Timestamp> times{};  ///< of each point; empty if unknown
 };
+/// The request as options of a search over all poses, which borrow the neighbours' models.
+[[nodiscard]] nav::PoseSearchRegistrationOptions options_of(const RegistrationRequest& request);
 
 using Registrar = std::function<Result<nav::Registration>(const RegistrationRequest& request)>;
 

@@ -34,6 +34,7 @@ inline constexpr auto kHologramNames = std::to_array<const char*>(
     {"sampled path", "vertebra", "entry points", "planned trajectory", "deviation triangle",
      "angle readout", "target cross", "virtual twin", "depth", "rod template", "status line",
      "check points", "numbers"});
+static_assert(kHologramNames.size() == static_cast<std::size_t>(HologramKind::kNumbers));
 
 /// What a person wearing the display can read off one hologram: text and a few world positions.
 struct ShownHologram {

@@ -24,7 +24,7 @@ class ForwardingCamera : public StereoCamera {
   StereoCamera& inner_;
 };
 
-/// The same of poses of tools.
+/// Likewise for poses of tools.
 class ForwardingToolPoses : public ToolPoseSource {
  public:
   explicit ForwardingToolPoses(ToolPoseSource& inner) : inner_(inner) {}

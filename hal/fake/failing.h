@@ -74,7 +74,7 @@ class FailingCamera : public ForwardingCamera {
   Result<Next> spoiled(CameraFault fault, StereoFrame& frame);
 };
 
-/// The same of poses of tools.
+/// Likewise for poses of tools.
 class FailingToolPoses : public ForwardingToolPoses {
  public:
   FailingToolPoses(ToolPoseSource& inner, std::vector<Fault<ToolPoseFault>> faults)

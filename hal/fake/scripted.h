@@ -47,7 +47,7 @@ class ScriptedCamera : public StereoCamera {
   Result<Next> do_next(StereoFrame& frame) override;
 };
 
-/// The same of poses of tools.
+/// Likewise for poses of tools.
 using ToolPoseStep = std::variant<ToolPoses, Next, Error>;
 
 /// Plays its steps, one per call, then ends. Delivered poses set the clock to their time.

@@ -88,8 +88,8 @@ struct ScrewClearance {
 /// Each place speaks for its arc of the circumference, for which the wall is taken as a plane. That
 /// and the curvature of walls err to the safe side: against exact clearances in the same motions,
 /// at ten screws of real vertebrae, the bound is 0.01 mm too low for SDs of 0.3 mm and 0.2° along
-/// and about each axis, 0.05 mm for 0.8 mm and 0.6°, 0.12 mm for 1.5 mm and 1.1°, on average. What
-/// is not in the covariance it does not hold.
+/// and about each axis, 0.05 mm for 0.8 mm and 0.6°, 0.12 mm for 1.5 mm and 1.1°, on average. It
+/// covers only what the covariance holds.
 [[nodiscard]] std::optional<ScrewClearance> screw_clearance(const SurfaceIndex& bone,
                                                             const ScrewCylinder& screw,
                                                             const PoseUncertainty* pose);

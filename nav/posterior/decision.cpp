@@ -20,7 +20,7 @@ constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 /// Explanations that are less probable than the best by more than this are not looked at closely.
 constexpr double kFarWorse = 25.0;
 constexpr std::size_t kDraws = 4096;
-/// Poses that put the targets as near to each other are one.
+/// Poses whose targets are this near to each other count as one.
 constexpr double kSame_m = 0.0005;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -35,10 +35,10 @@ std::vector<Point<World>> tips_of(const Observations& observations) {
   return tips;
 }
 
-/// Of points that lie as in the bone's own frame, which is where the mirror image is one of the
-/// points instead.
+/// Share of the shafts that would go through bone. For the mirror image the points are mirrored in
+/// the model's frame, which is the same as to mirror the bone.
 double collisions(const Observations& observations, const VertebraModel& model,
-                  const Transform<World, Vertebra>& pose, bool mirrored = false) {
+                  const Transform<World, Vertebra>& pose, bool mirrored) {
   const auto from_world = pose.inverse();
   const auto seen = [&](Vec3 v) { return mirrored ? Vec3{-v.x, v.y, v.z} : v; };
   std::vector<Point<World>> tips;
@@ -58,6 +58,7 @@ struct Tried {
   const VertebraModel* model = nullptr;
   Transform<World, Vertebra> start;
   std::optional<Posterior> found;
+  double shaft_collisions = 0.0;  ///< share, at the pose that was found
   double log_shafts = 0.0;
 
   [[nodiscard]] double log_evidence() const {
@@ -72,9 +73,10 @@ struct Tried {
     if (found) {
       const double rows = static_cast<double>(
           std::min(Averaged::kUnits, units_of(observations, Averaged::kUnits).size()));
-      log_shafts = rows * (collisions(observations, *model, found->world_from_vertebra,
-                                      kind == Explanation::Kind::kMirror) *
-                           std::log(prior.shaft_in_bone / (1.0 - prior.shaft_in_bone)));
+      shaft_collisions = collisions(observations, *model, found->world_from_vertebra,
+                                    kind == Explanation::Kind::kMirror);
+      log_shafts =
+          rows * (shaft_collisions * std::log(prior.shaft_in_bone / (1.0 - prior.shaft_in_bone)));
     }
   }
 };
@@ -190,10 +192,7 @@ std::vector<PlaceToPress> places_to_press(const Posterior& posterior, const Bone
   const auto worst_m2 = [&](const Matrix6& c) {
     double most = 0.0;
     for (const Point<Vertebra>& target : targets) {
-      const Vec3 arm = target.v - posterior.centre_m;
-      Eigen::Matrix<double, 3, 6> moves = Eigen::Matrix<double, 3, 6>::Zero();
-      moves.leftCols<3>().setIdentity();
-      moves.rightCols<3>() = -skew_as<Eigen::Matrix3d>(arm);
+      const auto moves = moves_as<Eigen::Matrix<double, 3, 6>>(target.v - posterior.centre_m);
       most = std::max(most, (moves * c * moves.transpose()).trace());
     }
     return most;
@@ -336,7 +335,7 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   Decision out;
   out.answer = *tried[0].found;
   const Transform<World, Vertebra>& answer = out.answer.world_from_vertebra;
-  out.shaft_collision_fraction = collisions(observations, model, answer);
+  out.shaft_collision_fraction = tried[0].shaft_collisions;
 
   // The same bone of another size is an explanation of its own.
   const auto odds = [](double log_odds) { return std::exp(std::min(log_odds, 300.0)); };

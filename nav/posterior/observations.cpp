@@ -14,8 +14,8 @@ namespace {
 constexpr double kLeap_m = 0.008;
 constexpr double kSamePoint_m = 0.00005;
 constexpr double kPeriod_s = 1.0 / 30.0;
-/// A hand that lifts the pointer and begins another stroke takes longer; tracking that loses it for
-/// a moment returns sooner.
+/// To lift the pointer and begin another stroke takes longer than this; a moment in which tracking
+/// loses it is shorter.
 constexpr double kPause_s = 0.3;
 constexpr double kShortest_m = 0.004;
 constexpr double kSmallestCell_m = 0.005;

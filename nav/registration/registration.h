@@ -110,7 +110,7 @@ struct PoseSearchRegistrationOptions {
   /// How exactly each point was tracked (SD along an axis): better known points count more. Empty:
   /// all equal.
   std::vector<double> point_sd_m;
-  /// When each point was measured, ascending. Empty: not known. The posterior alone asks for it.
+  /// When each point was measured, ascending. Empty: not known. Only the posterior uses it.
   std::vector<double> times_s;
   /// From the tip back along the pointer's shaft, unit vectors in World: there can be no bone where
   /// the shaft was. Empty: not known.

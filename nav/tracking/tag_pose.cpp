@@ -19,14 +19,6 @@ using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
 constexpr double kDifferencePx = 0.05;
 
-// How a point of the body moves with a small translation and rotation: [I, -[lever arm]x].
-Matrix36 point_by_pose(Vec3 lever_arm) {
-  Matrix36 j;
-  j.leftCols<3>().setIdentity();
-  j.rightCols<3>() = -skew_as<Eigen::Matrix3d>(lever_arm);
-  return j;
-}
-
 }  // namespace
 
 std::array<Vec3, 4> corners_in_marker(double size_m) {
@@ -139,7 +131,7 @@ std::optional<PoseCovariance> TagGeometry::covariance(const Transform<Rig, Marke
         !add({}, {0, kDifferencePx}, right_variance_px2)) {
       return std::nullopt;
     }
-    const Matrix36 j = point_by_pose(rig_from_marker.rotation() * in_marker_m[i]);
+    const Matrix36 j = moves_as<Matrix36>(rig_from_marker.rotation() * in_marker_m[i]);
     normal += j.transpose() * j;
     spread += j.transpose() * noise * j;
   }

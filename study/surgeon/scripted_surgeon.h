@@ -96,7 +96,7 @@ class ScriptedSurgeon final : public Surgeon {
     Vec3 normal;
   };
   [[nodiscard]] Seat seat_in_landmark(std::size_t level);
-  /// Puts the guide's tip to the same landmark.
+  /// Puts the guide's tip into the same landmark.
   Script compare_tips(std::size_t level);
   /// With the guide held, and looked at, about as for the next screw.
   Script compare_tips_as_for_screw(std::size_t level);

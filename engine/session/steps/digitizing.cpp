@@ -22,7 +22,7 @@ void Registering::watch(WorkWatch* watch) {
 
 RegistrationJob Registering::now(RegistrationJob job) const {
   job.found = registrar_({*job.level.model, job.points, job.level.screws, job.level.neighbours,
-                          job.common, job.sds_m, job.shafts, 0.0, 0.0, job.times});
+                          job.common, job.sds_m, job.shafts, job.times});
   return job;
 }
 

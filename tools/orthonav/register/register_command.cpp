@@ -99,6 +99,7 @@ int run_register(const RegisterArguments& arguments, const RegisterOutputs& outp
                                           arguments.common.in_metres(),
                                           {},
                                           {},
+                                          {},
                                           tip_radius_m,
                                           model_sd_mm(arguments) * 1e-3});
   if (!registration) {
