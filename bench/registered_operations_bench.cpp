@@ -113,13 +113,15 @@ int run(int argc, char** argv) {
   app.add_option("--first-seed", first_seed);
   app.add_option("--case", folder, "default: the built-in phantom");
   app.add_option("--levels", options.levels, "default: the two lowest")->delimiter(',');
+  bool on_map = false;
+  app.add_flag("--map", on_map, "over the headset's map, without a patient reference");
   CLI11_PARSE(app, argc, argv);
   const auto source =
       folder.empty() ? Result<engine::Case>(engine::phantom()) : engine::load_case(folder);
   const engine::SetUp set_up = engine::SetUp::best();
   options.measurement = engine::Measurement::kModel;
   options.tools = engine::built_in_tools();
-  options.use_reference = set_up.reference;
+  options.use_reference = set_up.reference && !on_map;
   options.loop.draw_every = 0;
   options.session.live_clearance = false;
   Status status = source ? set_up.tell(options.sim) : Status(source.error());

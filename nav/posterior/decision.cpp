@@ -324,13 +324,23 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
     }
   }
   tried.erase(far, tried.end());
-  std::unique_ptr<Averaged> full;
-  tried[0].look(observations, prior, Effort::kFull, full);
-  if (!tried[0].found) {
-    return no_pose;
-  }
-  for (std::size_t i = 1; i < tried.size(); ++i) {
-    tried[i].look(observations, prior, Effort::kFull, full);
+  // Another pose of the bone may turn out to be the better one: then all are under its hand, once.
+  for (bool again = true, swapped = false; again; swapped = true) {
+    std::unique_ptr<Averaged> full;
+    tried[0].look(observations, prior, Effort::kFull, full);
+    if (!tried[0].found) {
+      return no_pose;
+    }
+    auto best = tried.begin();
+    for (auto t = tried.begin() + 1; t != tried.end(); ++t) {
+      t->look(observations, prior, Effort::kFull, full);
+      const bool own_pose = t->kind == Explanation::Kind::kAnswer;
+      best = own_pose && t->log_weight() > best->log_weight() ? t : best;
+    }
+    again = !swapped && best != tried.begin();
+    if (again) {
+      std::iter_swap(tried.begin(), best);
+    }
   }
   Decision out;
   out.answer = *tried[0].found;

@@ -90,6 +90,7 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
     return std::log(question.may_be_wrong / (1.0 - question.may_be_wrong) / odds);
   };
   double of_width = 0.0, of_poses = 0.0, of_mirror = 0.0, of_size = 0.0;
+  bool size_is_seen = false;
   for (const Explanation& e : d.explanations) {
     const double wrong = e.probability * e.wrong;
     switch (e.kind) {
@@ -104,6 +105,7 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
         break;
       case Explanation::Kind::kSize:
         of_size += wrong;
+        size_is_seen = e.log_ratio > 0.0;
         break;
     }
   }
@@ -122,7 +124,9 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
   if (counts(of_poses)) {
     reasons.push_back({Kind::kLogLikelihoodRatio, r.log_likelihood_ratio, -limit(1.0)});
   }
-  if (counts(of_size)) {
+  // Where the points say nothing of the size, its prior alone is no reason: it asks for more
+  // points.
+  if (counts(of_size) && size_is_seen) {
     reasons.push_back({Kind::kModelSize, r.size, question.size_off});
   }
   if (counts(of_width) || reasons.empty()) {
