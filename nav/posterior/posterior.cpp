@@ -53,8 +53,8 @@ struct Touches {
 
 namespace {
 
-/// `wanted`: of these points; empty: of all. `before`: the same ones at a pose nearby; the bone's
-/// shape about each is taken from there.
+/// `wanted`: of these points; empty: of all. `before`: at another pose, of some; the bone's shape
+/// about each is taken from there.
 Touches touches_at(const Observations& observations, const BoneSurface& bone,
                    const Transform<Vertebra, World>& from_world,
                    std::span<const std::uint32_t> wanted, const Touches* before) {
@@ -69,28 +69,31 @@ Touches touches_at(const Observations& observations, const BoneSurface& bone,
   }
   out.centre_m = (from_world * Point<World>{centre_in_world_m}).v;
   const std::size_t count = wanted.empty() ? out.all.size() : wanted.size();
-  // Two hundred places tell the shape about all of them.
-  const std::size_t every = std::max<std::size_t>(1, count / 200);
-  const Touches::Touch* last = nullptr;
+  // A hundred places tell the shape about all of them.
+  const std::size_t every = std::max<std::size_t>(1, count / 100);
+  const Touches::Touch* shape = nullptr;
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = wanted.empty() ? k : wanted[k];
     const Vec3 p = (from_world * observations.strokes[i].tip).v;
-    const auto place =
-        bone.near(p, before != nullptr ? before->all[i].nearest_m : bone.place_near(p));
+    const Touches::Touch* same = before != nullptr ? &before->all[i] : nullptr;
+    if (same != nullptr && !(same->out.squared_norm() > 0.0)) {
+      same = nullptr;  // it was not wanted there
+    }
+    const auto place = bone.near(p, same != nullptr ? same->nearest_m : bone.place_near(p));
     Touches::Touch& touch = out.all[i];
     touch.lever_m = p - out.centre_m;
     touch.out = place.out;
     touch.nearest_m = place.nearest_m;
     touch.height_m = place.distance_m - observations.tip_radius_m;
-    if (before != nullptr || k % every != 0) {
-      const Touches::Touch& as = before != nullptr ? before->all[i] : *last;
-      touch.valley_m = as.valley_m;
-      touch.curvature_1_m = as.curvature_1_m;
-    } else {
+    if (same != nullptr) {
+      shape = same;
+    } else if (shape == nullptr || (before == nullptr && k % every == 0)) {
       touch.valley_m = -bone.mean_height_around_m(place.nearest_m, place.out, kValley_m);
       touch.curvature_1_m = bone.curvature_1_m(place.nearest_m, place.out, kScatter_m);
+      shape = &touch;
     }
-    last = &touch;
+    touch.valley_m = shape->valley_m;
+    touch.curvature_1_m = shape->curvature_1_m;
   }
   for (std::size_t i = 0; i < observations.presses.size(); ++i) {
     const Vec3 p = (from_world * observations.presses[i].tip).v;
@@ -367,7 +370,7 @@ struct Averaged::Units {
   std::map<Correlated, Eigen::MatrixXd> fields;
   std::map<Correlated, Eigen::MatrixXd> wandering_noise;
   struct Factor {
-    Eigen::LLT<Eigen::MatrixXd> root;
+    Eigen::MatrixXd root;  ///< Cholesky's, lower triangle
     double log_determinant = 0.0;
     // Of the deviations within a block, a dimension:
     double log_determinant_within = 0.0;
@@ -408,7 +411,9 @@ struct Averaged::Units {
     const Mixture mix = mixture(node, prior, observations.in_time);
     const Correlated model{prior.model_length_m, true};
     const auto m = static_cast<Eigen::Index>(units.size());
-    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(m, m);
+    Factor out;
+    Eigen::MatrixXd& c = out.root;
+    c.setZero(m, m);
     // The model's error is that of presses too; tissue is beside them.
     const auto n = static_cast<Eigen::Index>(strokes());
     if (mix.model > 0.0) {
@@ -438,12 +443,12 @@ struct Averaged::Units {
     for (Eigen::Index b = n; b < m; ++b) {
       c(b, b) += 1.0 / points[static_cast<std::size_t>(b)];
     }
-    Factor out;
-    out.root.compute(c);
-    if (out.root.info() != Eigen::Success) {
+    // In place: hundreds are kept, and memory that is touched for the first time costs as much.
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> in_place(c);
+    if (in_place.info() != Eigen::Success) {
       return place->second;
     }
-    out.log_determinant = 2.0 * out.root.matrixLLT().diagonal().array().log().sum();
+    out.log_determinant = 2.0 * c.diagonal().array().log().sum();
     if (hand.blocks > 0.0) {
       std::array<double, kBlock> by_lag{};
       for (std::size_t lag = 0; lag < kBlock; ++lag) {
@@ -623,7 +628,7 @@ std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, con
   if (!factor) {
     return std::nullopt;
   }
-  const Columns whitened = factor->root.matrixL().solve(columns);
+  const Columns whitened = factor->root.triangularView<Eigen::Lower>().solve(columns);
   Products all = whitened.transpose() * whitened;
   // Tissue that is thick in valleys, by an unknown amount of the size of its unevenness.
   const Mixture mix = mixture(node, prior, units.observations.in_time);
@@ -761,6 +766,14 @@ std::vector<Node> neighbours_of(const Node& node, const Averaged::Units& units) 
         next[kLength] = kNoLength;
       }
       out.push_back(next);
+      if (k == kTime && by * by == 1) {
+        // Noise of the other smoothness is likely with another share that is white.
+        for (const int share : {node[0] - 1, node[0] + 1}) {
+          if (share >= 0 && share < size[0]) {
+            out.push_back({share, next[1], next[2], next[3], next[4], next[5]});
+          }
+        }
+      }
       if (k == kTissue && node[kTissue] == 0) {
         for (next[kLength] = 0; next[kLength] < lengths; ++next[kLength]) {
           out.push_back(next);
@@ -798,6 +811,8 @@ std::vector<Node> scattered(bool in_time) {
 std::vector<Node> explored(Averaged::Units& units, const Columns& columns,
                            std::span<const Node> starts, double least) {
   constexpr double kLikely = 6.0;
+  // Whose neighbours are looked at. At 6 nothing that was measured changes, but the time.
+  constexpr double kExpanded = 2.0;
   constexpr std::size_t kMost = 700;
   constexpr std::size_t kKept = 48;
   constexpr std::size_t kGoodMany = 100;
@@ -822,7 +837,7 @@ std::vector<Node> explored(Averaged::Units& units, const Columns& columns,
   while (!likely.empty()) {
     const auto [log_weight, node] = likely.top();
     likely.pop();
-    if (log_weight < most - kLikely) {
+    if (log_weight < most - kExpanded) {
       break;
     }
     if (seen.size() >= kGoodMany && most < least - kFarBelow) {
@@ -944,7 +959,8 @@ std::vector<EstimatedHeight> heights_of(Averaged::Units& units, const Touches& t
     const Eigen::VectorXd valleys = a.moved(kValley) * columns.col(kValley);
     const Eigen::VectorXd left = columns.col(kHeight) - columns.leftCols<kMoved>() * a.moved -
                                  a.part.standoff_m * columns.col(kStandoff);
-    const Eigen::VectorXd solved = factor->root.solve(left);
+    const auto root = factor->root.triangularView<Eigen::Lower>();
+    const Eigen::VectorXd solved = root.adjoint().solve(root.solve(left));
     // What the covariance of the fields, and of the strokes' own heights, makes of what is left.
     Eigen::VectorXd fields = Eigen::VectorXd::Zero(m);
     const auto add = [&](double sd, const Correlated& field, Eigen::Index rows) {
@@ -1041,22 +1057,22 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   // What the points tell of the hand, and where the grid has weight, is looked at where the descent
   // begins and, if that was elsewhere, again where it ends.
   Touches here;
+  Touches all;  // where the hand is told
   std::vector<Node> nodes;
   for (int round = 0; round < most_rounds; ++round) {
     if (told_here) {
-      shared = std::make_unique<Averaged>(
-          observations, prior,
-          hand_at(observations, prior, blocks,
-                  touches_at(observations, bone, from_world, {}, nullptr)));
+      all = touches_at(observations, bone, from_world, {}, nullptr);
+      shared = std::make_unique<Averaged>(observations, prior,
+                                          hand_at(observations, prior, blocks, all));
     }
     Averaged::Units& few = shared->few();
-    here = touches_at(observations, bone, from_world, few.wanted, nullptr);
+    here = touches_at(observations, bone, from_world, few.wanted, told_here ? &all : nullptr);
     nodes = explored(few, few.columns_of(here), scattered(observations.in_time), least);
     if (nodes.empty()) {
       return std::nullopt;
     }
     const Vec3 before_m = here.centre_m;
-    descend(few, bone, steering(nodes), 12, kStands_m, here);
+    descend(few, bone, steering(nodes), 12, full ? kStands_m : kNearlyStands_m, here);
     from_world = here.from_world;
     if ((here.centre_m - before_m).norm() < kAgain_m) {
       break;
@@ -1064,7 +1080,7 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   }
   Averaged::Units& units = full ? shared->all() : shared->few();
   if (full) {
-    here = touches_at(observations, bone, from_world, {}, nullptr);
+    here = touches_at(observations, bone, from_world, {}, told_here ? &all : &here);
     // Rows that are shorter see shorter fields.
     nodes = explored(units, units.columns_of(here), nodes, kNever);
     descend(units, bone, steering(nodes), 3, kNearlyStands_m, here);
