@@ -55,7 +55,8 @@ Fitted told_as_published(const Result<std::array<nav::published::IcpResult, 2>>&
 RegistrationMethod paper() {
   return {"paper",
           [](const BenchLevel& level) -> Fit {
-            return [model = level.model](std::span<const Point<World>> points) {
+            return [model = level.model](std::span<const Point<World>> points,
+                                         std::span<const double>) {
               return told_as_published(nav::published::register_points(
                   model->reachable(), model->reachable_surface(), points));
             };
@@ -73,7 +74,9 @@ RegistrationMethod by_search(const char* name, Search* search, double common_m) 
             options.targets = nav::entries_and_targets(level.screws);
             options.common.tip_m = common_m;
             options.neighbours = level.neighbours;
-            return [search, model = level.model, options](std::span<const Point<World>> points) {
+            return [search, model = level.model, options](std::span<const Point<World>> points,
+                                                          std::span<const double> times_s) mutable {
+              options.times_s.assign(times_s.begin(), times_s.end());
               return told_by(search(*model, points, options));
             };
           },

@@ -37,8 +37,9 @@ struct Fitted {
   std::function<Mat3(Point<Vertebra>)> covariance;
 };
 
-/// Fits one level. Not thread-safe, but several may run at the same time.
-using Fit = std::function<Fitted(std::span<const Point<World>>)>;
+/// Fits one level to points and their times, which may be empty. Not thread-safe, but several may
+/// run at the same time.
+using Fit = std::function<Fitted(std::span<const Point<World>>, std::span<const double> times_s)>;
 
 struct RegistrationMethod {
   std::string name;

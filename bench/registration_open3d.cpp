@@ -77,7 +77,8 @@ Fit prepared(const BenchLevel& level) {
     whole->points_.push_back(eigen_mm(s.point_m));
     whole->normals_.emplace_back(s.normal.x, s.normal.y, s.normal.z);
   }
-  return [whole, model = described(*whole)](std::span<const Point<World>> points) {
+  return [whole, model = described(*whole)](std::span<const Point<World>> points,
+                                            std::span<const double>) {
     // Open3D's random generator belongs to the process: one fit at a time, each from the same seed.
     static std::mutex one_at_a_time;
     const std::lock_guard lock(one_at_a_time);

@@ -93,7 +93,8 @@ Fit prepared(const BenchLevel& level) {
   icp->setInputSource(target);
   Cloud aligned;
   icp->align(aligned);
-  return [icp, model = exposed(samples, level.screws)](std::span<const Point<World>> points) {
+  return [icp, model = exposed(samples, level.screws)](std::span<const Point<World>> points,
+                                                       std::span<const double>) {
     return best_of_starts(*icp, model, points);
   };
 }

@@ -54,9 +54,11 @@ double own_time_ms() {
 
 /// Fits, and judges the result of peers that don't judge it themselves.
 Fitted fitted_by(const RegistrationMethod& method, const Fit& fit, const BenchLevel& level,
-                 std::span<const Point<World>> points, double& ms) {
+                 const test::DigitizedStrokes& strokes, double& ms) {
+  const std::vector<Point<World>> points = strokes.tips();
+  const std::vector<double> times_s = strokes.times_s();
   const double before_ms = own_time_ms();
-  Fitted fitted = fit(points);
+  Fitted fitted = fit(points, times_s);
   ms = own_time_ms() - before_ms;
   if (method.judges || !fitted.found) {
     return fitted;
@@ -96,10 +98,9 @@ void measure_level(const BenchLevel& level, const std::vector<RegistrationMethod
     for (std::uint64_t k = 0; k < options.seeds; ++k) {
       const std::uint64_t seed = options.first_seed + k;
       const auto strokes = strokes_of(level, variant, seed, options);
-      const auto points = strokes.tips();
       for (std::size_t m = 0; m < methods.size(); ++m) {
         Run run{variant, level.name(), strokes.coverage, seed, m};
-        const Fitted fitted = fitted_by(methods[m], fits[m], level, points, run.ms);
+        const Fitted fitted = fitted_by(methods[m], fits[m], level, strokes, run.ms);
         run.found = fitted.found;
         run.accepted = fitted.accepted;
         run.reason = fitted.reason;
@@ -117,7 +118,7 @@ void measure_level(const BenchLevel& level, const std::vector<RegistrationMethod
 /// Strokes of a level, and a method's result for them there.
 struct OnOwnLevel {
   test::StrokeVariant variant{};
-  std::vector<Point<World>> points;
+  test::DigitizedStrokes strokes;
   bool found = false;
   double rmse_m = 0.0;
 };
@@ -128,9 +129,9 @@ std::vector<OnOwnLevel> on_own_level(const BenchLevel& level, const Registration
   std::vector<OnOwnLevel> sets;
   for (const auto variant : options.variants) {
     for (std::uint64_t k = 0; k < options.seeds; ++k) {
-      OnOwnLevel set{variant, strokes_of(level, variant, options.first_seed + k, options).tips()};
+      OnOwnLevel set{variant, strokes_of(level, variant, options.first_seed + k, options)};
       double ms = 0.0;
-      const Fitted right = fitted_by(method, fit, level, set.points, ms);
+      const Fitted right = fitted_by(method, fit, level, set.strokes, ms);
       set.found = right.found;
       set.rmse_m = right.rmse_m;
       sets.push_back(std::move(set));
@@ -198,7 +199,7 @@ std::vector<WrongLevelRun> measure_wrong_levels(const std::vector<BenchLevel>& l
         const Fit fit = methods[m].prepare(other);
         for (const OnOwnLevel& set : sets) {
           double ms = 0.0;
-          const Fitted wrong = fitted_by(methods[m], fit, other, set.points, ms);
+          const Fitted wrong = fitted_by(methods[m], fit, other, set.strokes, ms);
           const bool better = set.found && (!wrong.found || set.rmse_m < wrong.rmse_m);
           parts[i].push_back({stroked.name(), other.name(), set.variant, m, wrong.accepted,
                               stroked.label, wrong.fits_better, better});

@@ -145,6 +145,20 @@ std::vector<Point<World>> DigitizedStrokes::tips() const {
   return points;
 }
 
+std::vector<double> DigitizedStrokes::times_s() const {
+  constexpr double kPause_s = 1.0;
+  std::vector<double> times;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const int before = i > 0 ? samples[i - 1].stroke : 0;
+    if (samples[i].stroke < before) {
+      return {};
+    }
+    times.push_back(i > 0 ? times.back() + kSamplePeriod_s + kPause_s * (samples[i].stroke - before)
+                          : 0.0);
+  }
+  return times;
+}
+
 Result<DigitizedStrokes> digitize_strokes(const nav::TriangleMesh& mesh, StrokeVariant variant,
                                           std::uint64_t seed, const StrokeErrorModel& error_model) {
   const nav::SurfaceIndex surface(mesh);

@@ -59,6 +59,8 @@ struct DigitizedStrokes {
   std::string coverage;                  ///< in words: "laminae only"
 
   [[nodiscard]] std::vector<Point<World>> tips() const;
+  /// When each was measured, with a second between strokes; empty where they are in any order.
+  [[nodiscard]] std::vector<double> times_s() const;
 };
 
 /// Time between samples of a stroke.
