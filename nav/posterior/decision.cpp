@@ -183,6 +183,8 @@ std::vector<PlaceToPress> places_to_press(const Posterior& posterior, const Bone
                                           std::span<const Point<Vertebra>> candidates,
                                           std::size_t count) {
   Matrix6 covariance = Eigen::Map<const Rows6>(posterior.covariance.data());
+  // The pose that the presses will tell: the bone may have moved since the strokes.
+  covariance.diagonal().head<3>().array() += prior.moved_sd_m * prior.moved_sd_m;
   double model_m2 = 0.0;
   for (const Part& part : posterior.parts) {
     model_m2 += part.weight * std::pow(part.noise_m * part.of.model, 2);

@@ -206,7 +206,7 @@ using Products = Eigen::Matrix<double, kColumns, kColumns>;
 // The grid, and the prior of a point of it.
 
 constexpr int kShares = 7;
-constexpr int kTimes = 6;
+constexpr int kTimes = 9;
 constexpr int kRatios = 6;
 constexpr double kLeastRatio = 0.12;
 
@@ -795,7 +795,7 @@ void sort_by_weight(Answers& answers) {
 std::vector<Node> scattered(bool in_time) {
   std::vector<Node> out;
   for (const int share : in_time ? std::vector<int>{1, 3, 5} : std::vector<int>{0}) {
-    for (const int time : in_time ? std::vector<int>{4, 5, 8} : std::vector<int>{0}) {
+    for (const int time : in_time ? std::vector<int>{6, 7, 12} : std::vector<int>{0}) {
       out.push_back({share, time, 0, kNoLength, 0, 0});
       out.push_back({share, time, 2, kNoLength, 0, 0});
       out.push_back({share, time, 0, kNoLength, 2, 0});
