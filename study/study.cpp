@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
@@ -16,8 +15,6 @@
 
 namespace orthonav::engine {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Job {
   const Case* source = nullptr;
@@ -43,41 +40,50 @@ std::vector<Job> jobs_of(std::span<const Case> cases, const StudyOptions& option
 class Workers {
  public:
   Workers(std::vector<Job> jobs, const StudyOptions& options,
-          const std::function<void(int, int)>& progress, std::optional<StudyStore> store)
+          const std::function<void(int, int)>& progress, StudyStore store)
       : jobs_(std::move(jobs)),
         options_(options),
         progress_(progress),
         store_(std::move(store)),
-        reports_(jobs_.size()) {}
+        is_made_(jobs_.size()) {}
 
   /// Takes over the operations that the store already holds.
   Status resume() {
     const MutexLock lock(mutex_);
-    if (!store_) {
-      return {};
-    }
-    const auto stored = store_->operations();
-    if (!stored) {
-      return stored.error();
-    }
-    for (const StoredOperation& operation : *stored) {
+    return store_.for_each([this](const StoredOperation& operation) ORTHONAV_REQUIRES(mutex_) {
       const auto job =
           std::lower_bound(jobs_.begin(), jobs_.end(), operation.index,
                            [](const Job& one, int number) { return one.number < number; });
-      if (job == jobs_.end() || job->number != operation.index) {
-        continue;  // another shard's
+      if (job != jobs_.end() && job->number == operation.index) {  // otherwise another shard's
+        note(static_cast<std::size_t>(job - jobs_.begin()), operation);
       }
-      reports_[static_cast<std::size_t>(job - jobs_.begin())] =
-          operation.report.empty() ? Result<std::string>(Error{operation.why})
-                                   : Result<std::string>(operation.report);
-      ++done_;
-    }
-    return {};
+      return Status();
+    });
   }
 
   Result<Study> run() {
     on_threads(std::min<int>(options_.jobs, static_cast<int>(jobs_.size())), [this] { work(); });
-    return keep_and_tell();
+    const MutexLock lock(mutex_);
+    if (!stored_) {
+      return stored_.error();
+    }
+    auto text = study_text(store_, options_.shard, options_.shards);
+    if (!text) {
+      return text.error();
+    }
+    if (done_ == static_cast<int>(jobs_.size())) {
+      if (Status finished = store_.finish(); !finished) {
+        return finished.error();
+      }
+    }
+    if (first_failed_ && failed_ == done_) {
+      return first_failed_->second;
+    }
+    Study out{std::move(*text), {}, done_, static_cast<int>(jobs_.size())};
+    if (first_failed_) {
+      out.failure = first_failed_->second;
+    }
+    return out;
   }
 
   /// Begins no further run and ends the running ones; may be called from any thread.
@@ -110,7 +116,17 @@ class Workers {
 
   bool is_made(std::size_t i) {
     const MutexLock lock(mutex_);
-    return reports_[i].has_value();
+    return is_made_[i];
+  }
+
+  void note(std::size_t i, const StoredOperation& operation) ORTHONAV_REQUIRES(mutex_) {
+    is_made_[i] = true;
+    ++done_;
+    failed_ += operation.report.empty() ? 1 : 0;
+    if (operation.report.empty() && (!first_failed_ || i < first_failed_->first)) {
+      first_failed_ = {i, Error{"case '" + operation.case_name + "', seed " +
+                                std::to_string(operation.seed) + ": " + operation.why}};
+    }
   }
 
   /// The plan of a case, with its models prepared once.
@@ -130,19 +146,6 @@ class Workers {
     for (const auto& [run, end] : under_way_) {
       end();
     }
-  }
-
-  Result<Study> keep_and_tell() {
-    {
-      const MutexLock lock(mutex_);
-      if (stored_ && store_ && done_ == static_cast<int>(jobs_.size())) {
-        stored_ = store_->finish();
-      }
-      if (!stored_) {
-        return stored_.error();
-      }
-    }
-    return study();
   }
 
   bool is_stopped() {
@@ -166,18 +169,17 @@ class Workers {
   /// A run that something other than its operation ended is no result of the method.
   void take(std::size_t i, const Result<OperationResult>& result) {
     const Status ended = result ? result->loop.ended : Status(result.error());
-    auto report = ended ? Result<std::string>(report_json(*result)) : ended.error();
+    const Job& job = jobs_[i];
+    const StoredOperation made{job.number, job.source->name, job.seed,
+                               ended ? report_json(*result) : std::string(),
+                               ended ? std::string() : ended.error().message};
     const MutexLock lock(mutex_);
     if (stopped_ && result && !result->completed) {
       return;  // the run may have been ended for that reason
     }
-    reports_[i] = std::move(report);
-    ++done_;
-    if (store_ && stored_.ok()) {
-      const Job& job = jobs_[i];
-      stored_ = store_->add({job.number, job.source->name, job.seed,
-                             ended ? **reports_[i] : std::string(),
-                             ended ? std::string() : ended.error().message});
+    note(i, made);
+    if (stored_.ok()) {
+      stored_ = store_.add(made);
       if (!stored_) {
         stop_all();
       }
@@ -187,49 +189,21 @@ class Workers {
     }
   }
 
-  [[nodiscard]] Result<Study> study() const {
-    Study out;
-    Json runs = Json::array();
-    Json failed = Json::array();
-    const MutexLock lock(mutex_);
-    for (std::size_t i = 0; i < jobs_.size(); ++i) {
-      if (!reports_[i]) {
-        continue;  // stopped before it was run
-      }
-      if (*reports_[i]) {
-        runs.push_back(Json::parse(**reports_[i]));
-        continue;
-      }
-      const std::string& name = jobs_[i].source->name;
-      const std::string& why = reports_[i]->error().message;
-      failed.push_back(Json{{"case", name}, {"seed", jobs_[i].seed}, {"why", why}});
-      if (!out.failure) {
-        out.failure =
-            Error{"case '" + name + "', seed " + std::to_string(jobs_[i].seed) + ": " + why};
-      }
-    }
-    if (runs.empty() && out.failure) {
-      return *out.failure;
-    }
-    out.text = study_text(method_label(options_.operation), runs, failed, jobs_.size());
-    out.made = done_;
-    out.planned = static_cast<int>(jobs_.size());
-    return out;
-  }
-
   std::vector<Job> jobs_;
   const StudyOptions& options_;
   const std::function<void(int, int)>& progress_;
   std::atomic<std::size_t> next_ = 0;
   mutable Mutex mutex_;
-  std::optional<StudyStore> store_ ORTHONAV_GUARDED_BY(mutex_);
+  StudyStore store_ ORTHONAV_GUARDED_BY(mutex_);
   Status stored_ ORTHONAV_GUARDED_BY(mutex_);
-  std::vector<std::optional<Result<std::string>>> reports_ ORTHONAV_GUARDED_BY(mutex_);
+  std::vector<bool> is_made_ ORTHONAV_GUARDED_BY(mutex_);
   Mutex planning_;
   std::map<const Case*, Result<Operation>> plans_ ORTHONAV_GUARDED_BY(planning_);
   std::map<std::size_t, std::function<void()>> under_way_ ORTHONAV_GUARDED_BY(mutex_);
   bool stopped_ ORTHONAV_GUARDED_BY(mutex_) = false;
   int done_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  int failed_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  std::optional<std::pair<std::size_t, Error>> first_failed_ ORTHONAV_GUARDED_BY(mutex_);
 };
 
 }  // namespace
@@ -259,15 +233,11 @@ Result<Study> run_study(std::span<const Case> cases, const StudyOptions& options
   if (cases.empty()) {
     return Error{"study: no case"};
   }
-  std::optional<StudyStore> store;
-  if (!options.store.empty()) {
-    auto opened = StudyStore::open(options.store, definition_of(cases, options));
-    if (!opened) {
-      return opened.error();
-    }
-    store = std::move(*opened);
+  auto store = StudyStore::open(options.store, definition_of(cases, options));
+  if (!store) {
+    return store.error();
   }
-  Workers workers(jobs_of(cases, options), options, progress, std::move(store));
+  Workers workers(jobs_of(cases, options), options, progress, std::move(*store));
   if (const Status resumed = workers.resume(); !resumed) {
     return resumed.error();
   }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <iosfwd>
 #include <span>
 #include <string>
 
@@ -16,17 +15,5 @@ namespace orthonav::engine {
 /// the method, the room's magnitudes, the cases with the checksums of their meshes, the seeds.
 /// Shards of one study have the same.
 [[nodiscard]] std::string definition_of(std::span<const Case> cases, const StudyOptions& options);
-
-/// Joins shards in SQLite files as if they had been one study. Refuses shards of different studies,
-/// and other files. Missing operations count as not made.
-Result<std::string> merge_stores(std::span<const std::string> paths);
-
-/// The same, written incrementally: it keeps a few numbers per operation and one report per file in
-/// memory, so that a million operations fit.
-Status merge_stores(std::span<const std::string> paths, std::ostream& out);
-
-/// The operations of the study that are in none of these files; all of them without files.
-Result<std::vector<int>> missing_operations(const std::string& definition,
-                                            std::span<const std::string> paths);
 
 }  // namespace orthonav::engine

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/check.h"
 #include "base/file_code.h"
 #include "engine/io/bit_hash.h"
 #include "engine/io/file_names.h"
@@ -32,8 +33,8 @@ Status sync_folder_of(const std::string& file) { return PosixEnv().sync_folder(f
 
 class Statement {
  public:
-  Statement(sqlite3* database, const char* text) {
-    sqlite3_prepare_v2(database, text, -1, &statement_, nullptr);
+  Statement(sqlite3* database, const std::string& text) {
+    sqlite3_prepare_v2(database, text.c_str(), -1, &statement_, nullptr);
   }
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
@@ -65,21 +66,6 @@ std::optional<std::uint64_t> as_seed(const std::string& text) {
   return digits ? std::optional(std::stoull(text)) : std::nullopt;
 }
 
-/// The row that `asked` found.
-Result<StoredOperation> operation_in(const Statement& asked, const std::string& path) {
-  const auto seed = as_seed(asked.text(2));
-  if (!seed) {
-    return Error{path + ": seed of operation " + asked.text(0) + " is '" + asked.text(2) +
-                 "', must be a whole number"};
-  }
-  StoredOperation out{static_cast<int>(asked.number(0)), asked.text(1), *seed, asked.text(3),
-                      asked.text(4)};
-  if (!out.report.empty() && !nlohmann::json::accept(out.report)) {
-    return Error{path + ": report of operation " + asked.text(0) + " is not JSON"};
-  }
-  return out;
-}
-
 }  // namespace
 
 struct StudyStore::Database {
@@ -103,12 +89,12 @@ struct StudyStore::Database {
         return ErrorCode::kInvalid;
     }
   }
-  Status execute(const std::string& path, const char* text) const {
-    return sqlite3_exec(handle, text, nullptr, nullptr, nullptr) == SQLITE_OK
+  Status execute(const std::string& path, const std::string& text) const {
+    return sqlite3_exec(handle, text.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK
                ? Status()
                : Status(failed(path));
   }
-  [[nodiscard]] std::int64_t pragma(const char* text) const {
+  [[nodiscard]] std::int64_t pragma(const std::string& text) const {
     Statement asked(handle, text);
     return asked.step() == SQLITE_ROW ? asked.number(0) : 0;
   }
@@ -117,7 +103,7 @@ struct StudyStore::Database {
     const std::string tables =
         "BEGIN IMMEDIATE; PRAGMA application_id = " + std::to_string(kApplication) +
         "; PRAGMA user_version = " + std::to_string(kLayout) + ";" + kCreate;
-    if (Status made = execute(path, tables.c_str()); !made) {
+    if (Status made = execute(path, tables); !made) {
       return made;
     }
     {
@@ -128,21 +114,51 @@ struct StudyStore::Database {
         return failed(path);
       }
     }
-    if (Status made = execute(path, "COMMIT"); !made) {
-      return made;
-    }
-    return sync_folder_of(path);
+    return execute(path, "COMMIT");
   }
-  /// The definition of the study in it.
-  [[nodiscard]] Result<std::string> definition(const std::string& path) const {
-    if (pragma("PRAGMA application_id") != kApplication) {
+  /// Takes over what another file holds.
+  Status join(const std::string& path, const std::string& definition_here) const {
+    Statement attach(handle, "ATTACH ? AS shard");
+    attach.bind(1, path);
+    if (attach.step() != SQLITE_DONE) {
+      return Error{path + ": " + sqlite3_errstr(sqlite3_errcode(handle)), code(path)};
+    }
+    const auto found = definition(path, "shard");
+    if (!found) {
+      return found.error();
+    }
+    if (*found != definition_here) {
+      return Error{path + ": holds study " + study_hash(*found) + ", the others hold " +
+                   study_hash(definition_here)};
+    }
+    {
+      Statement differing(handle,
+                          "SELECT number FROM main.operation AS known JOIN shard.operation AS more "
+                          "USING (study, number) WHERE known.report IS NOT more.report LIMIT 1");
+      const int answer = differing.step();
+      if (answer == SQLITE_ROW) {
+        return Error{path + ": operation " + differing.text(0) +
+                     " has another result than in the other files"};
+      }
+      if (answer != SQLITE_DONE) {
+        return failed(path);
+      }
+    }
+    return execute(path,
+                   "INSERT OR IGNORE INTO main.operation SELECT * FROM shard.operation;"
+                   "DETACH shard");
+  }
+  /// The definition of the study in the file that is attached as `file`.
+  [[nodiscard]] Result<std::string> definition(const std::string& path,
+                                               const std::string& file = "main") const {
+    if (pragma("PRAGMA " + file + ".application_id") != kApplication) {
       return Error{path + ": is not a study of orthonav"};
     }
-    if (const auto layout = pragma("PRAGMA user_version"); layout != kLayout) {
+    if (const auto layout = pragma("PRAGMA " + file + ".user_version"); layout != kLayout) {
       return Error{path + ": layout " + std::to_string(layout) + ", this version reads " +
                    std::to_string(kLayout)};
     }
-    Statement asked(handle, "SELECT hash, definition FROM study");
+    Statement asked(handle, "SELECT hash, definition FROM " + file + ".study");
     if (asked.step() != SQLITE_ROW) {
       return Error{path + ": holds no study"};
     }
@@ -169,11 +185,14 @@ std::string study_hash(const std::string& definition) { return hash_text(fnv1a(d
 
 Result<StudyStore> StudyStore::open(const std::string& path, const std::string& definition) {
   std::error_code code;
-  const bool finished = fs::exists(path, code);
-  const std::string file = finished ? path : path + ".part";
+  const bool lasting = !path.empty();
+  const bool growing = lasting && !fs::exists(path, code);
+  const std::string file = growing ? path + ".part" : path;
   const bool there = fs::exists(file, code);
   auto database = std::make_unique<Database>();
-  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_FULLMUTEX;
+  // What is joined to a temporary one is opened likewise: an absent file is not made.
+  const int flags =
+      SQLITE_OPEN_READWRITE | SQLITE_OPEN_FULLMUTEX | (lasting ? SQLITE_OPEN_CREATE : 0);
   if (sqlite3_open_v2(file.c_str(), &database->handle, flags, nullptr) != SQLITE_OK) {
     return database->failed(file);
   }
@@ -181,6 +200,9 @@ Result<StudyStore> StudyStore::open(const std::string& path, const std::string& 
   if (!there || database->pragma("PRAGMA page_count") == 0) {
     if (Status begun = database->begin(file, definition); !begun) {
       return begun.error();
+    }
+    if (Status synced = lasting ? sync_folder_of(file) : Status(); !synced) {
+      return synced.error();
     }
   }
   const auto found = database->definition(file);
@@ -191,75 +213,54 @@ Result<StudyStore> StudyStore::open(const std::string& path, const std::string& 
     return Error{file + ": holds study " + study_hash(*found) + ", this is " +
                  study_hash(definition) + "; another version, or other settings"};
   }
-  return StudyStore(std::move(database), path, definition, !finished);
+  return StudyStore(std::move(database), lasting ? path : "the study's temporary file", definition,
+                    growing);
 }
 
-Result<StudyStore> StudyStore::read(const std::string& path) {
-  auto database = std::make_unique<Database>();
-  if (sqlite3_open_v2(path.c_str(), &database->handle, SQLITE_OPEN_READONLY, nullptr) !=
+Result<StudyStore> StudyStore::joined(std::span<const std::string> paths) {
+  ORTHONAV_CHECK(!paths.empty());
+  Database first;
+  if (sqlite3_open_v2(paths.front().c_str(), &first.handle, SQLITE_OPEN_READWRITE, nullptr) !=
       SQLITE_OK) {
-    return database->failed(path);
+    return first.failed(paths.front());
   }
-  auto found = database->definition(path);
-  if (!found) {
-    return found.error();
+  const auto definition = first.definition(paths.front());
+  if (!definition) {
+    return definition.error();
   }
-  return StudyStore(std::move(database), path, std::move(*found), false);
-}
-
-Result<std::vector<StoredOperation>> StudyStore::operations() const {
-  std::vector<StoredOperation> out;
-  Statement asked(database_->handle,
-                  "SELECT number, case_name, seed, report, why FROM operation WHERE study = ? "
-                  "ORDER BY number");
-  asked.bind(1, hash_);
-  int answer = asked.step();
-  for (; answer == SQLITE_ROW; answer = asked.step()) {
-    auto operation = operation_in(asked, path_);
-    if (!operation) {
-      return operation.error();
+  auto store = open("", *definition);
+  if (!store) {
+    return store.error();
+  }
+  for (const std::string& path : paths) {
+    if (Status joined = store->database_->join(path, *definition); !joined) {
+      return joined.error();
     }
-    out.push_back(std::move(*operation));
   }
-  if (answer != SQLITE_DONE) {
-    return database_->failed(path_);
-  }
-  return out;
+  store->path_ = paths.front() + (paths.size() > 1 ? " and the others" : "");
+  return store;
 }
 
-Result<std::vector<int>> StudyStore::numbers() const {
-  std::vector<int> out;
+Status StudyStore::for_each(const std::function<Status(const StoredOperation&)>& take) const {
   Statement asked(database_->handle,
-                  "SELECT number FROM operation WHERE study = ? ORDER BY number");
-  asked.bind(1, hash_);
+                  "SELECT number, case_name, seed, report, why FROM operation ORDER BY number");
   int answer = asked.step();
   for (; answer == SQLITE_ROW; answer = asked.step()) {
-    out.push_back(static_cast<int>(asked.number(0)));
+    const std::string named = path_ + ": operation " + asked.text(0);
+    const auto seed = as_seed(asked.text(2));
+    if (!seed) {
+      return Error{named + ": seed is '" + asked.text(2) + "', must be a whole number"};
+    }
+    const StoredOperation operation{static_cast<int>(asked.number(0)), asked.text(1), *seed,
+                                    asked.text(3), asked.text(4)};
+    if (!operation.report.empty() && !nlohmann::json::accept(operation.report)) {
+      return Error{named + ": report is not JSON"};
+    }
+    if (Status taken = take(operation); !taken) {
+      return taken;
+    }
   }
-  if (answer != SQLITE_DONE) {
-    return database_->failed(path_);
-  }
-  return out;
-}
-
-Result<std::optional<StoredOperation>> StudyStore::next_after(int number) const {
-  Statement asked(database_->handle,
-                  "SELECT number, case_name, seed, report, why FROM operation WHERE study = ? "
-                  "AND number > ? ORDER BY number LIMIT 1");
-  asked.bind(1, hash_);
-  asked.bind(2, number);
-  const int answer = asked.step();
-  if (answer == SQLITE_DONE) {
-    return std::optional<StoredOperation>();
-  }
-  if (answer != SQLITE_ROW) {
-    return database_->failed(path_);
-  }
-  auto operation = operation_in(asked, path_);
-  if (!operation) {
-    return operation.error();
-  }
-  return std::optional(std::move(*operation));
+  return answer == SQLITE_DONE ? Status() : Status(database_->failed(path_));
 }
 
 Status StudyStore::add(const StoredOperation& operation) {

@@ -1,11 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "base/result.h"
 
@@ -26,20 +25,19 @@ struct StoredOperation {
 class StudyStore {
  public:
   /// `definition`: the text with everything that decides the results (docs/cohorts.md). Refuses a
-  /// file of another study, or one that is not a study, and leaves it unchanged.
+  /// file of another study, or one that is not a study, and leaves it unchanged. Without a path the
+  /// operations lie in a temporary file that SQLite makes when they need one.
   static Result<StudyStore> open(const std::string& path, const std::string& definition);
-  /// A finished one or a part of one, to be read.
-  static Result<StudyStore> read(const std::string& path);
+  /// What is in all these files, finished or growing, in a temporary one. Refuses files of
+  /// different studies, and an operation with different results in two files.
+  static Result<StudyStore> joined(std::span<const std::string> paths);
   StudyStore(StudyStore&&) noexcept;
   StudyStore& operator=(StudyStore&&) noexcept;
   ~StudyStore();
 
   [[nodiscard]] const std::string& definition() const { return definition_; }
-  [[nodiscard]] Result<std::vector<StoredOperation>> operations() const;
-  /// The numbers of its operations, in order, without reading the operations.
-  [[nodiscard]] Result<std::vector<int>> numbers() const;
-  /// The one with the smallest number above `number`, if there is one.
-  [[nodiscard]] Result<std::optional<StoredOperation>> next_after(int number) const;
+  /// Goes through the operations in the order of their numbers; `take` may end it.
+  Status for_each(const std::function<Status(const StoredOperation&)>& take) const;
   /// An existing operation is left unchanged, since a task that ran twice has the same result.
   Status add(const StoredOperation& operation);
   Status finish();

@@ -1,20 +1,19 @@
 #pragma once
 
-#include <cstddef>
-#include <nlohmann/json_fwd.hpp>
+#include <iosfwd>
 #include <string>
+
+#include "study/study_store.h"
 
 namespace orthonav::engine {
 
-/// The JSON of a study (docs/file-formats.md). `planned`: the number of planned runs; larger than
-/// the actual number if it was stopped.
-[[nodiscard]] std::string study_text(const std::string& method, const nlohmann::ordered_json& runs,
-                                     const nlohmann::ordered_json& failed, std::size_t planned);
+/// The JSON of the study in a store (docs/file-formats.md), or of one shard of it, written
+/// incrementally: it keeps a few numbers per operation and one report in memory, so that a million
+/// operations fit. Missing operations count as not made.
+Status write_study(const StudyStore& store, std::ostream& out, int shard = 1, int shards = 1);
+Result<std::string> study_text(const StudyStore& store, int shard = 1, int shards = 1);
 
 /// The figures of a study's JSON as a table for a terminal, beside the published ones.
 [[nodiscard]] std::string study_table(const std::string& study_text);
-
-/// JSON in the format of a study's file: indented by one space.
-[[nodiscard]] std::string text_of(const nlohmann::ordered_json& part);
 
 }  // namespace orthonav::engine

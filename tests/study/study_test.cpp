@@ -30,10 +30,21 @@ Json run_of(const std::string& name, std::uint64_t seed, double angle_deg) {
              {"screws", {{{"side", "left"}, {"angle_error_deg", angle_deg}}}}}}}};
 }
 
+/// The study of the method of the paper, planned so large, in which these runs were made.
+Json study_of(const std::vector<Json>& runs, int planned) {
+  auto store =
+      StudyStore::open("", Json{{"method", "paper"}, {"runs", planned}, {"cases", {"one"}}}.dump());
+  EXPECT_TRUE(store.ok());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    EXPECT_TRUE(
+        store->add({static_cast<int>(i), runs[i]["case"], runs[i]["seed"], runs[i].dump(), ""})
+            .ok());
+  }
+  return Json::parse(*study_text(*store));
+}
+
 TEST(Study, HasTheTableOverItsRuns) {
-  const Json study = Json::parse(study_text(
-      "paper", Json::array({run_of("a", 1, 3.0), run_of("a", 2, 2.0), run_of("b", 1, 4.0)}),
-      Json::array(), 3));
+  const Json study = study_of({run_of("a", 1, 3.0), run_of("a", 2, 2.0), run_of("b", 1, 4.0)}, 3);
   EXPECT_EQ(study["operations"], 3);
   EXPECT_EQ(study["completed"], 3);
   EXPECT_FALSE(study.contains("planned"));
@@ -49,8 +60,7 @@ TEST(Study, HasTheTableOverItsRuns) {
 }
 
 TEST(Study, ThatLacksRunsIsIncomplete) {
-  const Json study =
-      Json::parse(study_text("paper", Json::array({run_of("a", 1, 3.0)}), Json::array(), 5));
+  const Json study = study_of({run_of("a", 1, 3.0)}, 5);
   EXPECT_EQ(study["incomplete"], true);
   EXPECT_EQ(study["planned"], 5);
 }

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/command_line.h"
@@ -64,34 +63,13 @@ TEST(StudyCompare, RefusesInOneLine) {
   EXPECT_THAT(refusal({one, folder.with("x.db", "no study")}), HasSubstr("x.db: is not a study"));
 }
 
-TEST(StudySlurm, SaysInOneLineThatThereIsNone) {
-  if (std::system("command -v sbatch >/dev/null 2>&1") == 0) {
-    GTEST_SKIP() << "Slurm is installed here";
-  }
+// A page tells of each operation how to make it again.
+TEST(StudyPage, HasTheCommandThatMakesAnOperationAgain) {
   const ScratchFolder folder;
-  const Called called = orthonav({"study", "--measurement", "model", "--levels", "L5", "--runs",
-                                  "1", "--slurm", folder.file("job")});
-  EXPECT_EQ(called.code, 2);
-  EXPECT_THAT(called.out, IsEmpty());
-  EXPECT_EQ(called.err, "orthonav: --slurm: sbatch was not found (Debian: slurm-wlm)\n");
-}
-
-// Completed work needs no Slurm: the shard exists and only has to be merged.
-TEST(StudySlurm, WritesThePageOfWhatItsTasksMade) {
-  const ScratchFolder folder;
-  const std::vector<std::string> study = {
-      "study", "--measurement", "model", "--method", "paper", "--levels", "L5", "--runs", "1"};
-  const auto with = [&study](const std::vector<std::string>& more) {
-    std::vector<std::string> words = study;
-    words.insert(words.end(), more.begin(), more.end());
-    return orthonav(words);
-  };
-  const Called shard = with({"--db", folder.file("shard-00001.db")});
-  ASSERT_EQ(shard.code, 0) << shard.err;
   const std::string page = folder.file("page.html");
-  const Called joined = with({"--slurm", folder.file(""), "--tasks", "1", "--report", page});
-  ASSERT_EQ(joined.code, 0) << joined.err;
-  EXPECT_EQ(joined.out, shard.out);
+  const Called study = orthonav({"study", "--measurement", "model", "--method", "paper", "--levels",
+                                 "L5", "--runs", "1", "--report", page});
+  ASSERT_EQ(study.code, 0) << study.err;
   EXPECT_THAT(content_of(page),
               HasSubstr("<span>orthonav study</span> <span>--method paper</span> "
                         "<span>--measurement model</span> <span>--levels L5</span> "

@@ -47,7 +47,6 @@ std::string usual_value(const std::string& option) {
                                                             {"--series", "UID"},
                                                             {"--shard", "I/N"},
                                                             {"--size", "WIDTHxHEIGHT"},
-                                                            {"--slurm", "DIR"},
                                                             {"--to-bone", "X,Y,Z"},
                                                             {"--tools", "FILE"}};
   const auto found = values.find(option);

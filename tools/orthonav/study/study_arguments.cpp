@@ -1,7 +1,6 @@
 #include "tools/orthonav/study/study_arguments.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <thread>
@@ -10,7 +9,6 @@
 #include "engine/case/tool_file.h"
 #include "engine/io/atomic_file.h"
 #include "study/left_out.h"
-#include "study/study_definition.h"
 #include "study/study_text.h"
 #include "tools/orthonav/shared/arguments.h"
 #include "tools/orthonav/shared/case_source.h"
@@ -131,56 +129,6 @@ engine::OperationOptions study_operation() {
   return operation;
 }
 
-std::string quoted(const std::string& text) {
-  constexpr const char* kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+:,@%-";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) {
-    return text;
-  }
-  std::string out = "'";
-  for (const char c : text) {
-    out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  }
-  return out + "'";
-}
-
-std::string absolute_path(const std::string& path) {
-  std::error_code code;
-  return fs::absolute(path, code).string();
-}
-
-std::string profile_word(const std::string& name_or_file) {
-  std::error_code code;
-  return fs::is_regular_file(name_or_file, code) ? absolute_path(name_or_file) : name_or_file;
-}
-
-std::string operation_words(const StudyArguments& arguments, const std::string& cases) {
-  std::string words;
-  const auto add = [&words](const char* name, const std::string& value) {
-    if (!value.empty()) {
-      words += std::string(" ") + name + " " + quoted(value);
-    }
-  };
-  add("--cases", cases.empty() ? "" : absolute_path(cases));
-  add("--method", arguments.method);
-  add("--profile", profile_word(arguments.profile));
-  add("--measurement", arguments.measurement);
-  for (const std::string& level : arguments.levels) {
-    add("--levels", level);
-  }
-  words += arguments.perfect ? " --perfect" : "";
-  words += arguments.navigation_alone ? " --navigation-alone" : "";
-  words += arguments.reference ? " --reference" : "";
-  add("--guidance", arguments.surgeon.guidance);
-  add("--instrument", arguments.surgeon.instrument);
-  add("--strokes", arguments.surgeon.strokes);
-  add("--tools", arguments.tools.empty() ? "" : absolute_path(arguments.tools));
-  for (const std::string& step : arguments.without) {
-    add("--without", step);
-  }
-  return words;
-}
-
 int write_study(const JsonOutput& json, const std::string& page, const std::string& study,
                 const engine::ReplayCommand& replay) {
   if (const Status written = json.write_text(study); !written) {
@@ -192,17 +140,6 @@ int write_study(const JsonOutput& json, const std::string& page, const std::stri
   const Status drawn =
       page.empty() ? Status() : engine::write_file(page, engine::study_html(study, replay));
   return drawn ? kDone : bad_input(drawn.error().message);
-}
-
-int write_joined(const JsonOutput& json, const std::string& page,
-                 std::span<const std::string> files, const engine::ReplayCommand& replay) {
-  if (page.empty() && json.given()) {
-    const Status joined =
-        json.stream([&](std::ostream& out) { return engine::merge_stores(files, out); });
-    return joined ? kDone : bad_input(joined.error().message);
-  }
-  const auto study = engine::merge_stores(files);
-  return study ? write_study(json, page, *study, replay) : bad_input(study.error().message);
 }
 
 namespace {
@@ -224,13 +161,6 @@ void add_cohort_options(CLI::App& study, StudyArguments& arguments) {
       .add_option("--db", arguments.store,
                   "SQLite file that keeps each operation; what it holds is not made again")
       ->check(some_text());
-  study
-      .add_option("--slurm", arguments.slurm,
-                  "runs as an array job of Slurm; its shards and logs go to this folder")
-      ->check(some_text());
-  study.add_option("--tasks", arguments.slurm_tasks, "tasks of that job (0: one in 60 operations)")
-      ->check(whole_number(0, 100'000))
-      ->capture_default_str();
   study.add_option("--report", arguments.report, "HTML page to write")->check(some_text());
   arguments.json.add_to(study);
   auto* perfect = study.add_flag("--perfect", arguments.perfect, "every source of error at zero");

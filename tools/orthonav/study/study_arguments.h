@@ -32,9 +32,7 @@ struct StudyArguments {
   bool reference = false;
   std::vector<std::string> without;  ///< steps of the method that are left out
   SurgeonArguments surgeon;
-  std::string tools;  ///< file; empty: the built-in ones
-  std::string slurm;  ///< folder of an array job; empty: on this machine
-  int slurm_tasks = 0;
+  std::string tools;   ///< file; empty: the built-in ones
   std::string report;  ///< HTML page; empty: none
   std::vector<std::string> merged;
   std::string merged_report;  ///< HTML page of the joined study; empty: none
@@ -45,29 +43,15 @@ void add_options(CLI::App& study, StudyArguments& arguments);
 /// A case folder, or a folder of case folders in the order of their names; the phantom without one.
 Result<std::vector<engine::Case>> cases_in(const std::string& folder);
 Result<engine::StudyOptions> options_of(const StudyArguments& arguments);
-/// The words of the command line that define an operation: all except number, seeds and output. For
-/// a shell, with folders as absolute paths.
-[[nodiscard]] std::string operation_words(const StudyArguments& arguments,
-                                          const std::string& cases);
 
 /// Number of simultaneous operations: as given, or the number of cores.
 [[nodiscard]] int jobs_or_cores(int jobs);
 /// An operation of a study: the built-in tools, no pictures.
 [[nodiscard]] engine::OperationOptions study_operation();
 
-/// The path made absolute.
-[[nodiscard]] std::string absolute_path(const std::string& path);
-/// The same for a profile: its name, or the absolute path of its file.
-[[nodiscard]] std::string profile_word(const std::string& name_or_file);
-/// A text as one word of a shell; in quotes where it needs them.
-[[nodiscard]] std::string quoted(const std::string& text);
 /// Writes a study as JSON where that is asked for, as a page if `page` is not empty, and as a table
 /// unless standard output carries the JSON; returns the exit code.
 int write_study(const JsonOutput& json, const std::string& page, const std::string& study,
                 const engine::ReplayCommand& replay = {});
-/// The same for shards in SQLite files; as JSON alone, without a table, none of them is held in
-/// memory.
-int write_joined(const JsonOutput& json, const std::string& page,
-                 std::span<const std::string> files, const engine::ReplayCommand& replay = {});
 
 }  // namespace orthonav::tools

@@ -6,6 +6,7 @@
 
 #include "engine/io/json_document.h"
 #include "study/study.h"
+#include "study/study_text.h"
 #include "tools/orthonav/command.h"
 #include "tools/orthonav/shared/arguments.h"
 #include "tools/orthonav/shared/count_progress.h"
@@ -14,7 +15,6 @@
 #include "tools/orthonav/study/study_compare.h"
 #include "tools/orthonav/study/study_replay.h"
 #include "tools/orthonav/study/study_rods.h"
-#include "tools/orthonav/study/study_slurm.h"
 
 namespace orthonav::tools {
 namespace {
@@ -41,9 +41,6 @@ int run_on(const StudyArguments& arguments, const engine::StudyOptions& options,
   const auto cases = cases_in(arguments.cases);
   if (!cases) {
     return bad_input(cases.error().message);
-  }
-  if (!arguments.slurm.empty()) {
-    return run_on_slurm(arguments, *cases, options);
   }
   const auto study = engine::run_study(
       *cases, options, counted("operations"),
@@ -97,7 +94,18 @@ int merge(const StudyArguments& arguments) {
   if (const Status place = arguments.merged_json.check(); !place) {
     return bad_input(place.error().message);
   }
-  return write_joined(arguments.merged_json, arguments.merged_report, arguments.merged);
+  const auto store = engine::StudyStore::joined(arguments.merged);
+  if (!store) {
+    return bad_input(store.error().message);
+  }
+  if (arguments.merged_report.empty() && arguments.merged_json.given()) {
+    const Status written = arguments.merged_json.stream(
+        [&store](std::ostream& out) { return engine::write_study(*store, out); });
+    return written ? kDone : bad_input(written.error().message);
+  }
+  const auto study = engine::study_text(*store);
+  return study ? write_study(arguments.merged_json, arguments.merged_report, *study)
+               : bad_input(study.error().message);
 }
 
 }  // namespace

@@ -1,11 +1,68 @@
 #include "tools/orthonav/study/study_replay.h"
 
+#include <filesystem>
 #include <map>
 
 #include "study/study_profile.h"
 
 namespace orthonav::tools {
 namespace {
+
+namespace fs = std::filesystem;
+
+/// A text as one word of a shell; in quotes where it needs them.
+std::string quoted(const std::string& text) {
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+:,@%-";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) {
+    return text;
+  }
+  std::string out = "'";
+  for (const char c : text) {
+    out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  }
+  return out + "'";
+}
+
+std::string absolute_path(const std::string& path) {
+  std::error_code code;
+  return fs::absolute(path, code).string();
+}
+
+/// The name of a profile, or the absolute path of its file.
+std::string profile_word(const std::string& name_or_file) {
+  std::error_code code;
+  return fs::is_regular_file(name_or_file, code) ? absolute_path(name_or_file) : name_or_file;
+}
+
+/// The words of the command line that define an operation: all except number, seeds and output. For
+/// a shell, with folders as absolute paths.
+std::string operation_words(const StudyArguments& arguments, const std::string& cases) {
+  std::string words;
+  const auto add = [&words](const char* name, const std::string& value) {
+    if (!value.empty()) {
+      words += std::string(" ") + name + " " + quoted(value);
+    }
+  };
+  add("--cases", cases.empty() ? "" : absolute_path(cases));
+  add("--method", arguments.method);
+  add("--profile", profile_word(arguments.profile));
+  add("--measurement", arguments.measurement);
+  for (const std::string& level : arguments.levels) {
+    add("--levels", level);
+  }
+  words += arguments.perfect ? " --perfect" : "";
+  words += arguments.navigation_alone ? " --navigation-alone" : "";
+  words += arguments.reference ? " --reference" : "";
+  add("--guidance", arguments.surgeon.guidance);
+  add("--instrument", arguments.surgeon.instrument);
+  add("--strokes", arguments.surgeon.strokes);
+  add("--tools", arguments.tools.empty() ? "" : absolute_path(arguments.tools));
+  for (const std::string& step : arguments.without) {
+    add("--without", step);
+  }
+  return words;
+}
 
 /// Whether the preview can show an operation of the study: it must consist only of the room, the
 /// guidance and the method of its profile, measured on pixels.
