@@ -174,16 +174,17 @@ class Demo {
   Result<engine::OperationResult> operate(const engine::Case& source,
                                           engine::OperationOptions options) {
     options.reference_places = kept_.reference_places();
-    readings_ = std::make_unique<ReadingCurves>(view_.get());
-    OperationProgress progress(readings_.get());
+    OperationProgress progress;
     engine::OperationHooks hooks;
-    hooks.loop = &progress;
     hooks.sink = view_.get();
     engine::ModelCache models(out_->file("models"));
     hooks.models = &models;
     hooks.can_stop = [this](std::function<void()> stop) { signals_.on_stop(std::move(stop)); };
     hooks.seen_through = [this](Headset& room) { return arguments_.calibration.on(room); };
     hooks.assembled = [&](engine::AssembledOperation& operation) {
+      operation.observe(view_.get());
+      operation.observe(&readings_);
+      operation.observe(&progress);
       onlookers_.watch(operation, arguments_.limits.grades());
       return kept_.begin(operation, out_->path().string(), about_demo(arguments_, source.name));
     };
@@ -231,7 +232,7 @@ class Demo {
         .beside_json = beside_json_,
         .beside_page =
             fs::proximate(fs::path(arguments_.beside) / "report.html", out_->path()).string(),
-        .plots = readings_->plots(arguments_.limits.grades()),
+        .plots = readings_.plots(arguments_.limits.grades()),
         .pictures = pictures_.written()};
     note(write_demo_report(out_->path(), result, report));
     note(result.recording);
@@ -246,7 +247,7 @@ class Demo {
   std::optional<OutFolder> out_;  ///< destroyed last: the files in it are dropped first
   std::unique_ptr<SurgeonView> view_;
   StepPictures pictures_;
-  std::unique_ptr<ReadingCurves> readings_;
+  ReadingCurves readings_;
   KeptOperation kept_;
   Onlookers onlookers_;
   RecordingWatch recording_{onlookers_.log()};

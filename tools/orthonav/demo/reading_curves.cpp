@@ -7,11 +7,8 @@
 
 namespace orthonav::tools {
 
-void ReadingCurves::stepped(const FrameHeader& frame, const engine::Inputs& inputs,
+void ReadingCurves::stepped(const FrameHeader& frame, const engine::Inputs& /*inputs*/,
                             const engine::Guidance& guidance) {
-  if (next_) {
-    next_->stepped(frame, inputs, guidance);
-  }
   if (guidance.step != engine::Step::kGuide || !guidance.tool || !guidance.tool->measured) {
     return;
   }
@@ -23,12 +20,6 @@ void ReadingCurves::stepped(const FrameHeader& frame, const engine::Inputs& inpu
   screw.time_s.push_back(seconds(frame.time - screw.begin));
   screw.angle_deg.push_back(degrees(guidance.tool->measured->angle_rad));
   screw.distance_mm.push_back(1e3 * guidance.tool->measured->tip_to_entry_m);
-}
-
-void ReadingCurves::captured(const engine::Snapshot& snapshot) {
-  if (next_) {
-    next_->captured(snapshot);
-  }
 }
 
 std::vector<engine::ReportPlot> ReadingCurves::plots(const engine::GradeLimits& limits) const {

@@ -10,14 +10,11 @@
 namespace orthonav::tools {
 
 /// Records the readings shown while each screw was guided: the angle, and the distance of the tip
-/// from the entry. Forwards everything it observes.
+/// from the entry.
 class ReadingCurves : public engine::LoopObserver {
  public:
-  /// Borrowed, may be null.
-  explicit ReadingCurves(engine::LoopObserver* next) : next_(next) {}
   void stepped(const FrameHeader& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
-  void captured(const engine::Snapshot& snapshot) override;
 
   /// The plots of the report: angle and distance over the time since the tool was first seen, with
   /// the angles at which the display changes its colour.
@@ -31,7 +28,6 @@ class ReadingCurves : public engine::LoopObserver {
     std::vector<double> angle_deg;
     std::vector<double> distance_mm;
   };
-  engine::LoopObserver* next_;
   std::vector<Screw> screws_;
 };
 

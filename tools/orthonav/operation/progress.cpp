@@ -7,11 +7,8 @@
 
 namespace orthonav::tools {
 
-void OperationProgress::stepped(const FrameHeader& frame, const engine::Inputs& inputs,
+void OperationProgress::stepped(const FrameHeader& frame, const engine::Inputs& /*inputs*/,
                                 const engine::Guidance& guidance) {
-  if (next_) {
-    next_->stepped(frame, inputs, guidance);
-  }
   const bool another = step_ != guidance.status.at;
   if (another) {
     step_ = guidance.status.at;
@@ -39,9 +36,6 @@ void OperationProgress::withdrawn(const engine::Guidance& guidance) {
   if (!guidance.blank) {
     warn(engine::detail_text(guidance.status));
   }
-  if (next_) {
-    next_->withdrawn(guidance);
-  }
 }
 
 void OperationProgress::cameras_failed(const std::string& why) {
@@ -51,22 +45,8 @@ void OperationProgress::cameras_failed(const std::string& why) {
     cameras_warned_.emplace();
     warn(why);
   }
-  if (next_) {
-    next_->cameras_failed(why);
-  }
 }
 
-void OperationProgress::input_failed(const std::string& why) {
-  warn(why);
-  if (next_) {
-    next_->input_failed(why);
-  }
-}
-
-void OperationProgress::captured(const engine::Snapshot& snapshot) {
-  if (next_) {
-    next_->captured(snapshot);
-  }
-}
+void OperationProgress::input_failed(const std::string& why) { warn(why); }
 
 }  // namespace orthonav::tools

@@ -13,11 +13,8 @@ namespace orthonav::tools {
 /// Progress of an operation (ProgressBar); each step of the workflow is shown at once.
 class OperationProgress : public engine::LoopObserver {
  public:
-  /// Also forwards everything to `next`, which is borrowed and may be null.
-  explicit OperationProgress(engine::LoopObserver* next) : next_(next) {}
   void stepped(const FrameHeader& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
-  void captured(const engine::Snapshot& snapshot) override;
   void withdrawn(const engine::Guidance& guidance) override;
   void cameras_failed(const std::string& why) override;
   void input_failed(const std::string& why) override;
@@ -32,7 +29,6 @@ class OperationProgress : public engine::LoopObserver {
   void warn(const std::string& why);
   void tell_untold();
 
-  engine::LoopObserver* next_;
   ProgressBar bar_;
   OperationEstimate estimate_;
   std::optional<engine::StepOnDisplay> step_;

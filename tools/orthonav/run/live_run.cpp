@@ -51,7 +51,7 @@ class LiveRun {
     if (const Status opened = open(); !opened) {
       return bad_input(opened.error().message);
     }
-    OperationProgress progress(nullptr);
+    OperationProgress progress;
     operation_->observe(&progress);
     onlookers_.watch(*operation_, arguments_.limits.grades());
     if (const Status presenting = presenting_.begin(*headset_, *operation_); !presenting) {
