@@ -166,8 +166,6 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
     }
   }
   switch (g.step) {
-    case Step::kSetup:
-      break;
     case Step::kDigitize:
       out.paths = true;
       out.stroke_pattern = rules.stroke_pattern && g.head && level != nullptr;
@@ -211,118 +209,9 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
       out.entry_labels = true;
       out.rods = true;
       break;
+    default:
+      break;
   }
-}
-
-// The words of step `guide`.
-
-namespace {
-
-constexpr const char* kSayNext = translatable("say go to next");
-
-const char* act_on_plan(const nav::DrillView& drill, bool was_set) {
-  switch (drill.phase) {
-    case nav::DrillPhase::kAway:
-      return was_set ? kSayNext : translatable("advance");
-    case nav::DrillPhase::kSet:
-      return translatable("drill");
-    case nav::DrillPhase::kDrilling:
-      return translatable("drilling");
-  }
-  return "";
-}
-
-const char* act_at_screw(const Visibility& visible, bool was_set) {
-  if (visible.sizes == nullptr) {
-    return "";  // lost, or as published
-  }
-  switch (visible.verdict.worst) {
-    case Worst::kNothing:
-      return act_on_plan(visible.drill, was_set);
-    case Worst::kCertainty:
-      return translatable("not sure: check by eye");
-    case Worst::kAngle:
-      return translatable("turn the tool");
-    case Worst::kOffset:
-      return translatable("move the tip");
-    case Worst::kClearance:
-      return translatable("aim away from the wall");
-    case Worst::kDepth:
-      return translatable("past the target: withdraw");
-  }
-  return "";
-}
-
-}  // namespace
-
-void append_next_act(std::string& out, const Guidance& guidance, const Visibility& visible) {
-  if (guidance.step != Step::kGuide || !visible.trajectory ||
-      visible.drill.alarm == nav::DrillAlarm::kStop) {
-    return;
-  }
-  if (visible.triangle != nullptr) {
-    const char* act = act_at_screw(visible, guidance.was_set);
-    out += *act != '\0' ? translated(act) : "";
-  } else if (!guidance.tool || !guidance.tool->measured) {
-    out += translated("take the guide");
-  } else {
-    out += translated(guidance.was_set ? kSayNext : translatable("tip to the entry"));
-  }
-}
-
-void append_cross_word(std::string& out, const Visibility& visible) {
-  if (visible.drill.alarm == nav::DrillAlarm::kStop) {
-    append_drill(out, visible.drill);
-  } else if (visible.clearance != nullptr && visible.clearance->may_break()) {
-    append_breach(out, *visible.clearance);
-  } else if (visible.drill.phase == nav::DrillPhase::kDrilling && !visible.drill.watched) {
-    append_drill(out, visible.drill);
-  }
-}
-
-void append_entry_name(std::string& out, const Visibility& visible, const PlacedLevel& at,
-                       std::size_t screw) {
-  const auto& selected = visible.trajectory;
-  const bool is_selected = selected && selected->at.level == at.level && selected->screw == screw;
-  if (!visible.entry_labels || at.level->screws[screw].done ||
-      (visible.only_selected_named && !is_selected)) {
-    return;
-  }
-  const Side side = at.level->plan.screws[screw].side;
-  if (at.level == visible.level) {
-    out += word_of(side);
-  } else {
-    append_screw(out, at.level->plan.label, side);
-  }
-}
-
-Vec3 rod_offset_m(const Guidance& guidance, const RodState& rod) {
-  if (!guidance.rods_moved_away || !rod.visible()) {
-    return {};
-  }
-  constexpr double kMovedAway_m = 0.150;
-  constexpr Vec3 kUp{0, 1, 0};
-  const Vec3 along = rod.heads.back() - rod.heads.front();
-  Vec3 side = along.cross(kUp);
-  if (side.norm() < 1e-6) {
-    side = {1, 0, 0};
-  }
-  // Right-handed: the direction of `side` depends on the order of touching, so take the one that
-  // leads away from the other rod.
-  Vec3 centre_of_rods{};
-  double count = 0.0;
-  for (const RodState& other : guidance.rods) {
-    if (!other.visible()) {
-      continue;
-    }
-    for (const Point<World>& head : other.heads) {
-      centre_of_rods += head.v;
-      count += 1.0;
-    }
-  }
-  const Vec3 outward = rod.heads.front().v - centre_of_rods / count;
-  const double sign = outward.dot(side) < 0.0 ? -1.0 : 1.0;
-  return side.normalized() * (sign * kMovedAway_m);
 }
 
 }  // namespace orthonav::engine

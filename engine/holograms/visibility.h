@@ -91,22 +91,4 @@ struct Visibility {
 void decide_visibility(const Guidance& guidance, const VisibilityRules& rules,
                        Timestamp display_time, Visibility& out);
 
-// The words of step `guide`, from what a frame shows: a frame that lost its tool does not ask for
-// what only a measured one allows.
-
-/// What to do next: "tip to the entry", "turn the tool", "drill". Nothing in other steps, whose
-/// status line says it, and while a stop is shown.
-void append_next_act(std::string& out, const Guidance& guidance, const Visibility& visible);
-/// Above the cross, at most one: "stop", or "may break through medially". Mostly nothing.
-void append_cross_word(std::string& out, const Visibility& visible);
-
-/// The name of a screw where it stands at its entry: the side, with its level if the status line
-/// does not say that.
-void append_entry_name(std::string& out, const Visibility& visible, const PlacedLevel& at,
-                       std::size_t screw);
-
-/// From where to where the rods are shifted while they are moved away: sideways off the patient,
-/// as a rigid body, each to its own side.
-[[nodiscard]] Vec3 rod_offset_m(const Guidance& guidance, const RodState& rod);
-
 }  // namespace orthonav::engine

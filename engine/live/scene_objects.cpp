@@ -17,12 +17,19 @@ namespace {
 using render::Float3;
 
 /// The most important first, because objects beyond the display's limits are left out from the end.
-constexpr std::array<HologramKind, 13> kOrder = {
-    HologramKind::kTriangle,   HologramKind::kAngle,  HologramKind::kDepth,
-    HologramKind::kNumbers,    HologramKind::kStatus, HologramKind::kCross,
-    HologramKind::kTrajectory, HologramKind::kEntry,  HologramKind::kCheckPoint,
-    HologramKind::kRod,        HologramKind::kPath,   HologramKind::kVertebra,
-    HologramKind::kTwin};
+constexpr auto kOrder = [] {
+  std::array<HologramKind, kHolograms.size()> order{};
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    order[i] = static_cast<HologramKind>(i + 1);
+  }
+  std::sort(order.begin(), order.end(), [](HologramKind a, HologramKind b) {
+    const auto rank = [](HologramKind kind) {
+      return kHolograms[static_cast<std::size_t>(kind) - 1].rank;
+    };
+    return std::pair(rank(a), a) < std::pair(rank(b), b);
+  });
+  return order;
+}();
 
 constexpr float kLineWithin_m = 0.00012f;
 constexpr float kPathWithin_m = 0.0007f;

@@ -29,12 +29,26 @@ enum class HologramKind : std::uint8_t {
   kCheckPoint,
   kNumbers,
 };
-/// In the same order, as the preview lists them.
-inline constexpr auto kHologramNames = std::to_array<const char*>(
-    {"sampled path", "vertebra", "entry points", "planned trajectory", "deviation triangle",
-     "angle readout", "target cross", "virtual twin", "depth", "rod template", "status line",
-     "check points", "numbers"});
-static_assert(kHologramNames.size() == static_cast<std::size_t>(HologramKind::kNumbers));
+/// Of each in the same order: its name, as the preview lists it, and its rank where a display takes
+/// a limited number of objects: the last are left out.
+struct HologramFacts {
+  const char* name;
+  int rank;
+};
+inline constexpr auto kHolograms = std::to_array<HologramFacts>({{"sampled path", 11},
+                                                                 {"vertebra", 12},
+                                                                 {"entry points", 8},
+                                                                 {"planned trajectory", 7},
+                                                                 {"deviation triangle", 1},
+                                                                 {"angle readout", 2},
+                                                                 {"target cross", 6},
+                                                                 {"virtual twin", 13},
+                                                                 {"depth", 3},
+                                                                 {"rod template", 10},
+                                                                 {"status line", 5},
+                                                                 {"check points", 9},
+                                                                 {"numbers", 4}});
+static_assert(kHolograms.size() == static_cast<std::size_t>(HologramKind::kNumbers));
 
 /// What a person wearing the display can read off one hologram: text and a few world positions.
 struct ShownHologram {

@@ -109,7 +109,8 @@ Status take_points(ByteReader& reader, std::vector<Point<World>>& points) {
 Status take_hologram(ByteReader& reader, ShownHologram& hologram) {
   Status problem;
   hologram.kind =
-      take_one(reader, HologramKind::kPath, HologramKind::kNumbers, "hologram", problem);
+      take_one(reader, HologramKind::kPath, static_cast<HologramKind>(engine::kHolograms.size()),
+               "hologram", problem);
   hologram.level = take_text(reader);
   hologram.side = take_side(reader, problem);
   hologram.text = take_text(reader);

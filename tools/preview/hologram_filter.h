@@ -7,7 +7,7 @@
 
 namespace orthonav::preview {
 
-inline constexpr unsigned kLastHologram = engine::kHologramNames.size();
+inline constexpr unsigned kLastHologram = engine::kHolograms.size();
 
 /// Which holograms are shown, by their numbers in docs ("H5" is 5); all at first.
 class HologramFilter {

@@ -114,7 +114,7 @@ void draw_holograms(PreviewModel& model) {
   for (unsigned number = 1; number <= kLastHologram; ++number) {
     bool shown = filter.shows(number);
     char name[48];
-    std::snprintf(name, sizeof name, "H%u %s", number, engine::kHologramNames[number - 1]);
+    std::snprintf(name, sizeof name, "H%u %s", number, engine::kHolograms[number - 1].name);
     if (number % 2 == 0) {
       ImGui::SameLine(190.0f);
     }
