@@ -381,45 +381,29 @@ void Session::collect() {
 }
 
 std::optional<std::size_t> Session::tool() const {
-  const std::size_t pointer = work_.tools.pointer();
   const MethodSteps& of_method = work_.options.steps;
-  switch (work_.step) {
-    case Step::kDigitize:
-    case Step::kRegistering:
-    case Step::kRod:
-      return pointer;
-    case Step::kVerify:
-      return of_method.check_points ? std::optional(pointer) : std::nullopt;
-    case Step::kTouchLandmark:
-      // Once the landmark is touched, the guide is next.
-      return of_method.touches_landmark()
-                 ? std::optional(landmarking_.touched() ? work_.tools.guide() : pointer)
-                 : std::nullopt;
-    case Step::kGuide:
-    case Step::kMeasureWire:
-      return work_.tools.guide();
-    case Step::kSetup:
-    case Step::kDone:
-      return std::nullopt;
+  const std::optional<nav::ToolRole> role = facts_of(work_.step).tool;
+  const bool by_eye = (work_.step == Step::kVerify && !of_method.check_points) ||
+                      (work_.step == Step::kTouchLandmark && !of_method.touches_landmark());
+  if (!role || by_eye) {
+    return std::nullopt;
   }
-  return std::nullopt;
+  // Once the landmark is touched, the guide is next.
+  const bool guide = role == nav::ToolRole::kGuide ||
+                     (work_.step == Step::kTouchLandmark && landmarking_.touched());
+  return guide ? work_.tools.guide() : work_.tools.pointer();
 }
 
 StepOnDisplay Session::on_display() const {
-  switch (work_.step) {
-    case Step::kSetup:
-    case Step::kDone:
+  switch (facts_of(work_.step).of) {
+    case StepOf::kOperation:
       return {work_.step, {}, {}};
-    case Step::kDigitize:
-    case Step::kRegistering:
-    case Step::kVerify:
-    case Step::kTouchLandmark:
+    case StepOf::kLevel:
       return {work_.step, work_.level().plan.label, {}};
-    case Step::kGuide:
-    case Step::kMeasureWire:
+    case StepOf::kScrew:
       return {work_.step, work_.level().plan.label,
               work_.level().plan.screws[guiding_.screw()].side};
-    case Step::kRod:
+    case StepOf::kRod:
       return {work_.step, {}, rods_.side()};
   }
   return {};

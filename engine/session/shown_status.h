@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +9,8 @@
 #include <string_view>
 
 #include "base/side.h"
+#include "base/translation.h"
+#include "nav/tracking/tool.h"
 
 namespace orthonav::engine {
 
@@ -24,7 +27,33 @@ enum class Step : std::uint8_t {
   kRod,
   kDone
 };
-inline constexpr std::size_t kStepCount = 9;
+
+/// What a step is about, as its name on display goes on to say: "guide L4 left".
+enum class StepOf { kOperation, kLevel, kScrew, kRod };
+
+struct StepFacts {
+  /// In files and scripts, where it does not change with the display's language, and on display.
+  const char* name;
+  StepOf of;
+  std::optional<nav::ToolRole> tool;  ///< the step's own; others may be used besides (`used_in`)
+};
+/// In the order of the steps.
+inline constexpr auto kStepFacts = std::to_array<StepFacts>({
+    {translatable("setup"), StepOf::kOperation, std::nullopt},
+    {translatable("digitize"), StepOf::kLevel, nav::ToolRole::kPointer},
+    {translatable("registering"), StepOf::kLevel, nav::ToolRole::kPointer},
+    {translatable("verify"), StepOf::kLevel, nav::ToolRole::kPointer},
+    {translatable("landmark"), StepOf::kLevel, nav::ToolRole::kPointer},
+    {translatable("guide"), StepOf::kScrew, nav::ToolRole::kGuide},
+    {translatable("measure"), StepOf::kScrew, nav::ToolRole::kGuide},
+    {translatable("rod"), StepOf::kRod, nav::ToolRole::kPointer},
+    {translatable("done"), StepOf::kOperation, std::nullopt},
+});
+inline constexpr std::size_t kStepCount = kStepFacts.size();
+static_assert(kStepCount == static_cast<std::size_t>(Step::kDone) + 1);
+[[nodiscard]] constexpr const StepFacts& facts_of(Step step) {
+  return kStepFacts[static_cast<std::size_t>(step)];
+}
 
 /// A step, with its level and side.
 struct StepOnDisplay {
@@ -35,9 +64,8 @@ struct StepOnDisplay {
   friend auto operator<=>(const StepOnDisplay&, const StepOnDisplay&) = default;
 };
 
-// Names in files and scripts, which do not change with the display's wording: "digitize"; "guide L4
-// left".
-[[nodiscard]] std::string_view name_of(Step step);
+// Names in files and scripts: "digitize"; "guide L4 left".
+[[nodiscard]] constexpr std::string_view name_of(Step step) { return facts_of(step).name; }
 [[nodiscard]] std::string name_of(const StepOnDisplay& at);
 
 /// The subject of the message on the status line; text/messages.h has its data, text/wording.h its

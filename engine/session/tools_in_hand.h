@@ -1,8 +1,6 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
-#include <initializer_list>
 #include <optional>
 #include <vector>
 
@@ -13,34 +11,22 @@
 
 namespace orthonav::engine {
 
-namespace tool_steps_detail {
-constexpr bool one_of(Step step, std::initializer_list<Step> steps) {
-  return std::find(steps.begin(), steps.end(), step) != steps.end();
-}
-}  // namespace tool_steps_detail
-
 /// In which steps each instrument may be used: the one place that says so.
 [[nodiscard]] constexpr bool used_in(nav::ToolRole role, Step step) {
-  using enum Step;
   using nav::ToolRole;
-  using tool_steps_detail::one_of;
-  switch (role) {
-    case ToolRole::kPointer:
-      return one_of(step, {kDigitize, kRegistering, kVerify, kTouchLandmark, kRod});
-    case ToolRole::kGuide:
-      return one_of(step, {kTouchLandmark, kGuide, kMeasureWire});
-    case ToolRole::kAwl:  // makes the landmark, and opens the cortex
-      return one_of(step, {kTouchLandmark, kGuide});
-    case ToolRole::kWire:  // stands while it is measured
-      return one_of(step, {kGuide, kMeasureWire});
-    case ToolRole::kDrill:
-    case ToolRole::kTap:
-    case ToolRole::kScrewdriver:
-      return one_of(step, {kGuide});
-    case ToolRole::kReference:
-      return true;
+  if (role == facts_of(step).tool || role == ToolRole::kReference) {
+    return true;
   }
-  return false;
+  switch (step) {
+    case Step::kTouchLandmark:  // the awl makes it, the guide's tip is held against the pointer's
+      return role == ToolRole::kGuide || role == ToolRole::kAwl;
+    case Step::kGuide:
+      return role != ToolRole::kPointer;
+    case Step::kMeasureWire:
+      return role == ToolRole::kWire;
+    default:
+      return false;
+  }
 }
 
 /// Finds a tool that is in hand in a step that does not use it: measured for half a second, with

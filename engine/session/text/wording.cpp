@@ -330,15 +330,6 @@ namespace {
 
 constexpr std::string_view kBetweenParts = " | ";
 
-std::string_view word_of(Step step) {
-  constexpr std::array<const char*, kStepCount> kWords = {
-      translatable("setup"),   translatable("digitize"), translatable("registering"),
-      translatable("verify"),  translatable("landmark"), translatable("guide"),
-      translatable("measure"), translatable("rod"),      translatable("done")};
-  static_assert(kWords.back() != nullptr, "every step has its word");
-  return translated(kWords[static_cast<std::size_t>(step)]);
-}
-
 void write_unused_tool(PartedText text, const StatusLine& line, std::string_view separator) {
   if (!line.unused_tool.empty()) {
     text.begin(Importance::kNext, separator);
@@ -383,7 +374,7 @@ struct StateWriter {
 }  // namespace
 
 void append_step(std::string& out, const StepOnDisplay& at) {
-  out += word_of(at.step);
+  out += translated(name_of(at.step));
   if (!at.level.empty()) {
     out.append(" ").append(at.level);
   }
