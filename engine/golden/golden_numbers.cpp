@@ -89,7 +89,7 @@ GoldenScene stop_late() {
 
 GoldenScene panel(const std::string& name, const std::string& what, const NumberSds& sds) {
   NearCross near(tool_at(kTipOff_m, kLean_rad), sds);
-  near.staged.guidance.numbers = true;
+  near.staged.guidance.asked.numbers = true;
   return near.scene(name, what, 1.7f);
 }
 

@@ -111,7 +111,7 @@ GoldenScene guide(const std::string& name, const std::string& what, const nav::S
   s.measure(tool);
   s.guidance.drill = {phase, nav::DrillAlarm::kNone, true};
   s.guidance.was_set = phase != nav::DrillPhase::kAway;
-  s.guidance.numbers = every_number;
+  s.guidance.asked.numbers = every_number;
   GoldenScene golden = s.scene(name, what);
   golden.covered = {{kOtherEntryLabel, kOtherEntry}};
   return golden;

@@ -102,7 +102,7 @@ class Rods : public Hologram {
       }
       hologram.head_names = names_;
       hologram.bends = bends_;
-      hologram.first_bend_only = !guidance.numbers;
+      hologram.first_bend_only = !guidance.asked.numbers;
       hologram.offset = to_float3(rod_offset_m(guidance, rod));
       add_rod(scene, hologram, label_of(HologramKind::kRod, i + 1));
     }

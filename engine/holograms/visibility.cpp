@@ -112,7 +112,7 @@ void decide_guide(const Guidance& g, const VisibilityRules& rules, Timestamp dis
         out.sizes = measured && fresh->sizes ? &*fresh->sizes : nullptr;
         out.depth = measured && fresh->depth ? &*fresh->depth : nullptr;
         out.clearance = measured && fresh->shown_clearance ? &*fresh->shown_clearance : nullptr;
-        out.numbers = g.numbers && measured && fresh->numbers ? &*fresh->numbers : nullptr;
+        out.numbers = g.asked.numbers && measured && fresh->numbers ? &*fresh->numbers : nullptr;
       }
       out.pose_time = fresh->pose_time;
       out.verdict = judged(out, out.drill, rules);
@@ -135,7 +135,7 @@ void decide_guide(const Guidance& g, const VisibilityRules& rules, Timestamp dis
     }
   }
   // H8: only where the surgeon asked for it, since it takes their eyes off the patient.
-  out.twin = g.twin;
+  out.twin = g.asked.twin;
 }
 
 }  // namespace

@@ -58,6 +58,12 @@ struct DroppedRegion {
   Timestamp dropped_at{};
 };
 
+/// What is shown if the surgeon asks for it, until they ask again.
+struct OnRequest {
+  bool twin = false;     ///< the virtual twin
+  bool numbers = false;  ///< every number of the guide, or of the rod
+};
+
 /// Everything that the surgeon may be shown after one stereo pair, as facts;
 /// engine/holograms/scene_builder.h decides what becomes visible. The spans look into the session:
 /// valid until its next step.
@@ -88,8 +94,7 @@ struct Guidance {
   const nav::Anchor* anchor = nullptr;
   /// The head's pose in the newest pair with a known one; some holograms face it.
   std::optional<Transform<World, Rig>> head;
-  bool twin = false;     ///< the virtual twin was asked for
-  bool numbers = false;  ///< every number of the guide, or of the rod, was asked for
+  OnRequest asked;  ///< while guiding, and at the rod
   /// The tip was set at the entry of the selected screw, or drilled there.
   bool was_set = false;
   /// Distances of the saved samples from the registered surface, region by region; empty without a

@@ -330,8 +330,8 @@ std::optional<FollowUpEvent> Session::act(Action action, Event event, Timestamp 
     case kCorrectGuide: guide_checks_.correct_guide(work_, time); guiding_.forget_guidance(); break;
     case kKeepWire: placing_.keep(work_, guiding_.screw(), time); break;
     case kSelectScrew: select_screw(); break;
-    case kToggleTwin: guiding_.toggle_twin(); break;
-    case kToggleNumbers: guiding_.toggle_numbers(); break;
+    case kToggleTwin: guiding_.toggle(&OnRequest::twin); break;
+    case kToggleNumbers: guiding_.toggle(&OnRequest::numbers); break;
     case kBeginDrill: guiding_.begin_drill(); break;
     case kReplan: replanning_.replan(work_, guiding_, placing_, time); break;
     case kTakeBreach: replanning_.take_breach(work_, guiding_, placing_, time); break;

@@ -79,8 +79,7 @@ Event Guiding::finish_screw(SessionState& work, const Placing& placing, Timestam
 void Guiding::write(const SessionState& work, const GuideChecks& checks, bool hidden,
                     Guidance& out) {
   out.screw = screw_;
-  out.twin = twin_;
-  out.numbers = numbers_;
+  out.asked = asked_;
   out.tool.reset();
   out.drill = {};
   out.was_set = false;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/translation.h"
+#include "engine/session/guidance.h"
 #include "engine/session/log/operation_json.h"
 #include "engine/session/session_state.h"
 #include "engine/session/tool_in_vertebra.h"
@@ -35,8 +36,7 @@ class Guiding {
   void lose_measurement();
   /// The surgeon said "drill".
   void begin_drill() { approach_.drill.begin(); }
-  void toggle_twin() { twin_ = !twin_; }
-  void toggle_numbers() { numbers_ = !numbers_; }
+  void toggle(bool OnRequest::*what) { asked_.*what = !(asked_.*what); }
   /// The selected screw is done, with its wire where one was placed.
   [[nodiscard]] Event finish_screw(SessionState& work, const Placing& placing,
                                    Timestamp time) const;
@@ -94,8 +94,7 @@ class Guiding {
   ToolErrors errors_;  ///< of the tool in this pair; World's drift is in the level (BoneFound)
   std::size_t screw_ = 0;
   Approach approach_;
-  bool twin_ = false;
-  bool numbers_ = false;
+  OnRequest asked_;
 };
 
 // Its records in the log; `json` holds time and level already.
