@@ -36,14 +36,17 @@ struct StepFacts {
   const char* name;
   StepOf of;
   std::optional<nav::ToolRole> tool;  ///< the step's own; others may be used besides (`used_in`)
+  const char* asks = "";              ///< the next act, where the step's state says no more
 };
 /// In the order of the steps.
 inline constexpr auto kStepFacts = std::to_array<StepFacts>({
-    {translatable("setup"), StepOf::kOperation, std::nullopt},
+    {translatable("setup"), StepOf::kOperation, std::nullopt, translatable("say begin guiding")},
     {translatable("digitize"), StepOf::kLevel, nav::ToolRole::kPointer},
-    {translatable("registering"), StepOf::kLevel, nav::ToolRole::kPointer},
-    {translatable("verify"), StepOf::kLevel, nav::ToolRole::kPointer},
-    {translatable("landmark"), StepOf::kLevel, nav::ToolRole::kPointer},
+    {translatable("registering"), StepOf::kLevel, nav::ToolRole::kPointer, translatable("wait")},
+    {translatable("verify"), StepOf::kLevel, nav::ToolRole::kPointer,
+     translatable("say accept result or reject level")},
+    {translatable("landmark"), StepOf::kLevel, nav::ToolRole::kPointer,
+     translatable("say go to next")},
     {translatable("guide"), StepOf::kScrew, nav::ToolRole::kGuide},
     {translatable("measure"), StepOf::kScrew, nav::ToolRole::kGuide},
     {translatable("rod"), StepOf::kRod, nav::ToolRole::kPointer},

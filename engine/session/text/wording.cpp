@@ -348,22 +348,17 @@ struct StateWriter {
     out += translated(act);
   }
   void operator()(std::monostate /*none*/) {
-    if (step == Step::kSetup) {
-      next(translatable("say begin guiding"));
-    } else if (step == Step::kRegistering) {
-      next(translatable("wait"));
+    if (const char* const act = facts_of(step).asks; *act != '\0') {
+      next(act);
     }
   }
+  void operator()(ByEye /*state*/) { (*this)(std::monostate()); }
   void operator()(const StrokesSoFar& strokes) {
     if (strokes.coaching != nullptr) {
       write_coaching(text, *strokes.coaching, "");
     } else {
       next(translatable("stroke the bone"));
     }
-  }
-  void operator()(ByEye /*state*/) {
-    next(step == Step::kVerify ? translatable("say accept result or reject level")
-                               : translatable("say go to next"));
   }
   void operator()(const ChecksSoFar& checks) { write_checks(text, checks, ""); }
   void operator()(const LandmarkSoFar& landmark) { write_landmark(text, landmark, ""); }
