@@ -57,29 +57,12 @@ bool is_negative_zero(const Buffer& text) {
   return zeros > 0 && std::strchr(" e", minus[1 + zeros]) != nullptr;
 }
 
-void print_real(Buffer& text, const Conversion& how, double value) {
+/// As snprintf prints it with the length modifier and the letter of its type.
+template <class Value>
+void print(Buffer& text, const Conversion& how, const char* type, Value value) {
   std::array<char, 40> format{};
-  std::snprintf(format.data(), format.size(), "%%%s.*%c", how.flags.data(),
-                std::strchr("feg", how.letter) != nullptr ? how.letter : 'g');
-  const int precision = how.precision < 0 ? kUsualPrecision : how.precision;
-  std::snprintf(text.data(), text.size(), format.data(), precision, value);
-  if (is_negative_zero(text)) {
-    std::snprintf(text.data(), text.size(), format.data(), precision, 0.0);
-  }
-}
-
-void print_whole(Buffer& text, const Conversion& how, const PrintedValue& value) {
-  const bool hexadecimal = how.letter == 'x';
-  const char letter = hexadecimal ? 'x' : (value.kind == PrintedValue::Kind::kSigned ? 'd' : 'u');
-  std::array<char, 40> format{};
-  std::snprintf(format.data(), format.size(), "%%%sll%c", how.flags.data(), letter);
-  std::snprintf(text.data(), text.size(), format.data(), value.whole);
-}
-
-void print_text(Buffer& text, const Conversion& how, const char* value) {
-  std::array<char, 40> format{};
-  std::snprintf(format.data(), format.size(), how.precision < 0 ? "%%%ss" : "%%%s.*s",
-                how.flags.data());
+  std::snprintf(format.data(), format.size(), "%%%s%s%s", how.flags.data(),
+                how.precision < 0 ? "" : ".*", type);
   if (how.precision < 0) {
     std::snprintf(text.data(), text.size(), format.data(), value);
   } else {
@@ -87,22 +70,32 @@ void print_text(Buffer& text, const Conversion& how, const char* value) {
   }
 }
 
+void print_real(Buffer& text, const Conversion& how, double value) {
+  const char type[] = {std::strchr("feg", how.letter) != nullptr ? how.letter : 'g', 0};
+  print(text, how, type, value);
+  if (is_negative_zero(text)) {
+    print(text, how, type, 0.0);
+  }
+}
+
 void append_value(std::string& out, const Conversion& how, const PrintedValue& value) {
-  Buffer text{};
   if (value.kind == PrintedValue::Kind::kText && how.flags[0] == 0 && how.precision < 0) {
     out += value.text;
     return;
   }
+  Buffer text{};
   switch (value.kind) {
     case PrintedValue::Kind::kReal:
       print_real(text, how, value.real);
       break;
     case PrintedValue::Kind::kText:
-      print_text(text, how, value.text);
+      print(text, how, "s", value.text);
       break;
     case PrintedValue::Kind::kSigned:
+      print(text, how, how.letter == 'x' ? "llx" : "lld", value.whole);
+      break;
     case PrintedValue::Kind::kUnsigned:
-      print_whole(text, how, value);
+      print(text, how, how.letter == 'x' ? "llx" : "llu", value.whole);
       break;
   }
   out += text.data();

@@ -1,9 +1,9 @@
 #include "engine/case/prepared_parts_file.h"
+#include "base/printed.h"
 
 #include <zlib.h>
 
 #include <bit>
-#include <cstdio>
 #include <cstring>
 #include <span>
 #include <type_traits>
@@ -87,11 +87,7 @@ MeshKey MeshKey::of(const nav::TriangleMesh& mesh) {
           crc_of(mesh.triangles.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]))};
 }
 
-std::string MeshKey::text() const {
-  char text[17];
-  std::snprintf(text, sizeof text, "%08x%08x", vertices_crc, triangles_crc);
-  return text;
-}
+std::string MeshKey::text() const { return printed("%08x%08x", vertices_crc, triangles_crc); }
 
 std::string encoded(const MeshKey& key, const nav::PreparedParts& parts) {
   Header header;

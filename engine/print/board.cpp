@@ -1,10 +1,9 @@
 #include "engine/print/board.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <set>
 
+#include "base/printed.h"
 #include "engine/print/tag_cells.h"
 #include "nav/tracking/marker_detector.h"
 #include "nav/tracking/tool.h"
@@ -20,11 +19,7 @@ constexpr double kLargestM = 0.5;
 // rounding.
 constexpr double kRounding = 1e-9;
 
-std::string in_mm(double metres) {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.6g mm", metres * 1e3);
-  return text.data();
-}
+std::string in_mm(double metres) { return printed("%.6g mm", metres * 1e3); }
 
 void check_counts(const Board& board, std::vector<std::string>& problems) {
   const int fewest = board.kind == BoardKind::kChessboard ? kFewestSquares : 1;

@@ -1,10 +1,10 @@
 #include "engine/report/registration_drawing.h"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "base/angle.h"
+#include "base/printed.h"
 #include "engine/case/operation.h"
 #include "engine/io/image_file.h"
 #include "engine/report/base64.h"
@@ -201,11 +201,7 @@ std::array<RegistrationView, 3> registration_views() {
             kUnlikeAnAxialSlice}}};
 }
 
-std::string hex(Rgb c) {
-  char out[8];
-  std::snprintf(out, sizeof out, "#%02x%02x%02x", c.red, c.green, c.blue);
-  return out;
-}
+std::string hex(Rgb c) { return printed("#%02x%02x%02x", c.red, c.green, c.blue); }
 
 namespace {
 

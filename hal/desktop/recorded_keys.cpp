@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <optional>
 #include <system_error>
 
 #include "base/file_code.h"
+#include "base/printed.h"
 #include "hal/desktop/key_events.h"
 
 namespace orthonav::desktop {
@@ -26,11 +26,7 @@ Error source_error(const std::string& path, const std::string& why,
   return Error{"clicker " + path + ": " + why, code};
 }
 
-std::string seconds_text(Duration time) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.3f s", seconds(time));
-  return text;
-}
+std::string seconds_text(Duration time) { return printed("%.3f s", seconds(time)); }
 
 Duration read_clock(clockid_t id) {
   timespec now{};

@@ -1,7 +1,6 @@
 #include "hal/sim/error_model.h"
 
-#include <sstream>
-
+#include "base/printed.h"
 #include "hal/sim/magnitudes.h"
 
 namespace orthonav::sim {
@@ -36,10 +35,9 @@ std::vector<std::string> ErrorModel::check() const {
     const double value = this->*magnitude.value;
     // Negated, so that NaN fails too.
     if (!(value >= magnitude.lowest && value <= magnitude.highest)) {
-      std::ostringstream line;
-      line << "magnitude " << magnitude.name << " is " << value << ", must lie in ["
-           << magnitude.lowest << ", " << magnitude.highest << "]";
-      problems.push_back(line.str());
+      problems.push_back(printed("magnitude %s is %g, must lie in [%g, %g]",
+                                 std::string(magnitude.name).c_str(), value, magnitude.lowest,
+                                 magnitude.highest));
     }
   }
   return problems;

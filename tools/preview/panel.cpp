@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "base/printed.h"
 #include "engine/session/text/wording.h"
 #include "tools/preview/error_sources.h"
 #include "tools/preview/panel_parts.h"
@@ -113,12 +114,11 @@ void draw_holograms(PreviewModel& model) {
   HologramFilter& filter = model.look().holograms;
   for (unsigned number = 1; number <= kLastHologram; ++number) {
     bool shown = filter.shows(number);
-    char name[48];
-    std::snprintf(name, sizeof name, "H%u %s", number, engine::kHolograms[number - 1].name);
+    const std::string name = printed("H%u %s", number, engine::kHolograms[number - 1].name);
     if (number % 2 == 0) {
       ImGui::SameLine(190.0f);
     }
-    if (ImGui::Checkbox(name, &shown)) {
+    if (ImGui::Checkbox(name.c_str(), &shown)) {
       filter.show(number, shown);
     }
   }

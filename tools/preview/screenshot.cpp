@@ -1,7 +1,6 @@
 #include "tools/preview/screenshot.h"
 
-#include <cstdio>
-
+#include "base/printed.h"
 #include "engine/io/folders.h"
 #include "engine/io/image_file.h"
 
@@ -12,9 +11,7 @@ namespace fs = std::filesystem;
 std::string numbered_name(const std::string& folder, const std::string& beginning,
                           const std::string& ending) {
   for (int number = 1;; ++number) {
-    char digits[16];
-    std::snprintf(digits, sizeof digits, "-%03d", number);
-    const std::string name = beginning + digits + ending;
+    const std::string name = beginning + printed("-%03d", number) + ending;
     std::error_code code;
     if (!fs::exists(fs::path(folder) / name, code)) {
       return name;

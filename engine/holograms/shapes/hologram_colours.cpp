@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
+#include "base/printed.h"
 #include "base/srgb.h"
 #include "engine/io/text_fields.h"
 
@@ -114,23 +114,19 @@ double colour_difference(const Colour& a, const Colour& b) {
 }
 
 Status HologramColours::check() const {
-  char text[160];
   for (const NamedColour& each : kNamedColours) {
     const double light = luminance(this->*each.colour);
     if (!(light >= kDarkest)) {
-      std::snprintf(text, sizeof text,
-                    "%s has %.2f of white's luminance; a see-through display needs %.2f",
-                    each.name.data(), light, kDarkest);
-      return Error{text};
+      return Error{printed("%s has %.2f of white's luminance; a see-through display needs %.2f",
+                           each.name.data(), light, kDarkest)};
     }
   }
   for (const ColoursApart& pair : colours_apart()) {
     const double apart = colour_difference(this->*pair.first, this->*pair.second);
     if (!(apart >= kApart)) {
-      std::snprintf(text, sizeof text,
-                    "%s and %s are too much alike: %.0f apart in CIELAB, at least %.0f needed",
-                    name_of(pair.first).data(), name_of(pair.second).data(), apart, kApart);
-      return Error{text};
+      return Error{
+          printed("%s and %s are too much alike: %.0f apart in CIELAB, at least %.0f needed",
+                  name_of(pair.first).data(), name_of(pair.second).data(), apart, kApart)};
     }
   }
   return {};

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "base/printed.h"
 #include "engine/case/tool_file.h"
 #include "engine/print/board_file.h"
 #include "nav/evaluation/tip_accuracy.h"
@@ -189,10 +190,10 @@ void add_accuracy_command(CLI::App& app, Action& action) {
   const nav::AccuracyOptions defaults;
   for (LimitArgument& limit : arguments->limits) {
     const nav::AccuracyLimits& given = defaults.*limit.limits;
-    char text[160];
-    std::snprintf(text, sizeof text, "%s (default: %g %g)", limit.what, given.pass_m * 1e3,
-                  given.note_m * 1e3);
-    command->add_option(limit.option, limit.mm, text)
+    command
+        ->add_option(
+            limit.option, limit.mm,
+            printed("%s (default: %g %g)", limit.what, given.pass_m * 1e3, given.note_m * 1e3))
         ->expected(2)
         ->type_name("PASS NOTE")
         ->check(finite_number(0.001, 100));

@@ -1,10 +1,9 @@
 #include "tools/orthonav/doctor/headset_probe.h"
 
-#include <array>
-#include <cstdio>
 #include <string_view>
 
 #include "base/how_many.h"
+#include "base/printed.h"
 #include "hal/hl2ss/probe.h"
 #include "hal/replay/replay_headset.h"
 #include "tools/orthonav/shared/depth_listing.h"
@@ -49,10 +48,8 @@ std::string span_after(std::int64_t start_100ns, std::int64_t first_100ns,
     constexpr double kSecondsATick = 1e-7;
     return kSecondsATick * static_cast<double>(ticks - start_100ns);
   };
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "from %.1f s to %.1f s after the first pair",
-                after_s(first_100ns), after_s(last_100ns));
-  return text.data();
+  return printed("from %.1f s to %.1f s after the first pair", after_s(first_100ns),
+                 after_s(last_100ns));
 }
 
 Result<std::vector<Offer>> offers_of_recording(const std::string& folder) {

@@ -1,7 +1,6 @@
 #include "tools/orthonav/operation/step_pictures.h"
 
-#include <cstdio>
-
+#include "base/printed.h"
 #include "engine/io/image_file.h"
 
 namespace orthonav::tools {
@@ -40,9 +39,7 @@ Status StepPictures::finish() {
       c = '-';
     }
   }
-  char number[16];
-  std::snprintf(number, sizeof number, "%02zu-", written_.size() + 1);
-  const auto path = folder_ / (number + name + ".png");
+  const auto path = folder_ / (printed("%02zu-", written_.size() + 1) + name + ".png");
   held_step_.reset();
   if (Status saved = engine::write_png(path, held_); !saved) {
     failure_ = saved;

@@ -1,10 +1,9 @@
 #include "tools/orthonav/shared/depth_listing.h"
 
-#include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "base/how_many.h"
+#include "base/printed.h"
 
 namespace orthonav::tools {
 
@@ -15,11 +14,8 @@ std::string in_words(const replay::DepthSummary& summary) {
   constexpr double kSecondsATick = 1e-7;
   const double span_s =
       kSecondsATick * static_cast<double>(summary.last_ticks_100ns - summary.first_ticks_100ns);
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), "%dx%d px, %s in %.1f s, %lld without a pose",
-                summary.width_px, summary.height_px, how_many(summary.frames, "frame").c_str(),
-                span_s, static_cast<long long>(summary.frames_without_pose));
-  return text.data();
+  return printed("%dx%d px, %s in %.1f s, %lld without a pose", summary.width_px, summary.height_px,
+                 how_many(summary.frames, "frame").c_str(), span_s, summary.frames_without_pose);
 }
 
 nlohmann::ordered_json as_json(const replay::DepthSummary& summary) {
