@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <sqlite3.h>
 #include <sys/resource.h>
 
 #include <csignal>
@@ -122,6 +123,33 @@ TEST_F(StudyStoreTest, RefusesAFileWhoseDefinitionWasChanged) {
   const auto read = StudyStore::joined(files);
   ASSERT_FALSE(read.ok());
   EXPECT_THAT(read.error().message, HasSubstr("does not belong to its hash"));
+}
+
+// A journal beside the file takes back what its worker had begun.
+TEST_F(StudyStoreTest, JoinsAShardWhoseWorkerDiedWhileItWrote) {
+  {
+    auto store = StudyStore::open(file("a.db"), "{}");
+    ASSERT_TRUE(
+        store->add({0, "phantom", 1, "{\"a\":\"" + std::string(800, 'x') + "\"}", ""}).ok());
+    ASSERT_TRUE(store->finish().ok());
+  }
+  sqlite3* worker = nullptr;
+  ASSERT_EQ(sqlite3_open(file("a.db").c_str(), &worker), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(worker,
+                         "PRAGMA cache_size = 2; BEGIN;"
+                         "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 99)"
+                         "INSERT INTO operation SELECT study, i, case_name, seed, report, why "
+                         "FROM operation, n;",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  fs::copy_file(file("a.db"), file("b.db"));
+  fs::copy_file(file("a.db-journal"), file("b.db-journal"));
+  EXPECT_GT(fs::file_size(file("b.db")), 50'000u) << "control: the file holds what was begun";
+  sqlite3_close(worker);
+  const std::vector<std::string> files = {file("b.db")};
+  const auto joined = StudyStore::joined(files);
+  ASSERT_TRUE(joined.ok()) << joined.error().message;
+  EXPECT_THAT(operations_of(*joined), SizeIs(1));
 }
 
 TEST_F(StudyStoreTest, RefusesAnOperationWithTwoResults) {
