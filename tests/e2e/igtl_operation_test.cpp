@@ -7,17 +7,16 @@
 
 #include "base/random.h"
 #include "base/stopwatch.h"
-#include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
 #include "engine/live/assembled_operation.h"
 #include "engine/live/known_tools.h"
-#include "engine/phantom/phantom.h"
 #include "hal/api/forwarding_headset.h"
 #include "hal/igtl/tracker_headset.h"
 #include "study/evaluation.h"
 #include "study/sim_scenario.h"
 #include "study/surgeon/scripted_surgeon.h"
 #include "study/surgeon/written_frame.h"
+#include "tests/e2e/planned.h"
 #include "tests/support/pose_server.h"
 
 namespace orthonav::engine::igtl_operation_test {
@@ -174,15 +173,14 @@ class Hider : public SessionObserver, public LoopObserver {
 
 Operated operate(bool reference) {
   Operated out;
-  const Case source = phantom({"L4"});
-  Operation operation = plan_operation(source, {"L4"}).value();
+  Operation operation = planned({"L5"});
   sim::SimOptions sim;
   sim.error_model = sim::ErrorModel::perfect();
   sim.error_model.pace = 4.0;
   sim.render = false;
   sim.surgeon = sim::ScriptedSurgeon::bring;
   const auto room =
-      sim::SimHeadset::open(room_of(source, operation, built_in_tools()), sim).value();
+      sim::SimHeadset::open(room_of(lumbar_spine(), operation, built_in_tools()), sim).value();
   auto tools = tools_known_to(*room).value();
   for (nav::ToolGeometry& tool : tools) {
     tool.marker = {"", 0, 0.0};

@@ -7,12 +7,11 @@
 #include <tuple>
 #include <utility>
 
-#include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
 #include "engine/io/posix_env.h"
-#include "engine/phantom/phantom.h"
 #include "engine/session/log/operation_log.h"
 #include "study/simulated_operation.h"
+#include "tests/e2e/planned.h"
 #include "tests/support/is_ok.h"
 #include "tests/support/killed_process.h"
 #include "tests/support/screws_done.h"
@@ -33,15 +32,6 @@ OperationOptions two_levels() {
   options.sim.error_model.pace = 4.0;
   options.loop.draw_every = 0;
   return options;
-}
-
-/// Prepared once for both processes.
-const Operation& planned_operation() {
-  static const Operation planned = [] {
-    ModelCache none;
-    return plan_operation(phantom(), two_levels().levels, none).value();
-  }();
-  return planned;
 }
 
 /// Calls a function with each pair.
@@ -99,7 +89,7 @@ struct Program {
     OperationHooks hooks;
     hooks.loop = &pairs;
     hooks.assembled = [this](AssembledOperation& live) { return keep(live); };
-    auto result = run_operation(phantom(), planned_operation(), options, hooks);
+    auto result = run_operation(lumbar_spine(), planned(options.levels), options, hooks);
     if (log) {
       EXPECT_TRUE(is_ok(log->finish(result && result->completed, "")));
       log.reset();  // and lets go of the folder
@@ -119,7 +109,7 @@ struct Program {
 
 /// Another process operates until it is killed at that moment. Returns whether the moment came.
 bool kill_at(const std::string& folder, const std::function<bool(const Guidance&)>& moment) {
-  std::ignore = planned_operation();
+  std::ignore = planned(two_levels().levels);  // for this process too
   return test::kill_after(1, [&](const std::function<void()>& tell) {
     std::ignore = Program(folder).run([&](const Guidance& guidance) {
       if (moment(guidance)) {
