@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <limits>
 #include <thread>
@@ -258,6 +259,7 @@ TEST(Recorder, TakesQuestionsFromOtherThreads) {
       const Timestamp now = (*recorder)->clock().now();
       EXPECT_EQ((*recorder)->head().world_from_rig(now).time, now);
       ++asked;
+      std::this_thread::sleep_for(std::chrono::microseconds(200));  // leaves a processor to others
     }
   });
   const SessionLog log = play(**recorder);

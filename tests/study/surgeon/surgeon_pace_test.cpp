@@ -121,7 +121,7 @@ TEST(Surgeon, KeepsThePaperPaceOnARealVertebra) {
   if (!test_case) {
     GTEST_SKIP() << "needs tests/data/anatomy";
   }
-  constexpr int kSeeds = 40;
+  constexpr int kSeeds = 20;
   const Surgeons all = many(*test_case, kSeeds, {});
   // Three standard errors of as many draws: SD / sqrt(n) of a mean, SD / sqrt(2n) of an SD.
   const double of_mean = 3.0 / std::sqrt(kSeeds);
@@ -138,7 +138,7 @@ TEST(Surgeon, KeepsThePaperPaceOnARealVertebra) {
   // The control: the spread is that between surgeons; for a single one it is far below the bounds.
   ErrorModel same;
   same.pace_sd = 0.0;
-  const Surgeons one = many(*test_case, 10, same);
+  const Surgeons one = many(*test_case, 5, same);
   EXPECT_LT(one.duration_s.sd, (1.0 - of_sd) * kPublishedSd_s);
   EXPECT_LT(one.samples.sd, (1.0 - of_sd) * kPublishedSdPoints);
 }
