@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 
 namespace orthonav::render {
 namespace {
@@ -31,6 +32,9 @@ ColourDifference compare_colour(const RgbaImage& expected, const RgbaImage& actu
   }
   const auto width = static_cast<std::size_t>(expected.width_px);
   for (std::size_t pixel = 0; 4 * pixel < expected.pixels.size(); ++pixel) {
+    if (std::memcmp(&expected.pixels[4 * pixel], &actual.pixels[4 * pixel], 4) == 0) {
+      continue;
+    }
     int worst = 0;
     for (std::size_t c = 0; c < 4; ++c) {
       worst = std::max(worst, channel_difference(expected, actual, 4 * pixel + c));

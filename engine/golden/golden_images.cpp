@@ -50,7 +50,10 @@ Result<GoldenImages> GoldenPainter::paint(const GoldenScene& scene) {
     return drawn.error();
   }
   images.additive = side_by_side(colour, &RgbaImage::pixels, 4);
-  const RgbaImage background = golden_background(scene.width_px, scene.height_px, scene.behind);
+  RgbaImage& background = backgrounds_[{{scene.width_px, scene.height_px}, scene.behind}];
+  if (background.pixels.empty()) {
+    background = golden_background(scene.width_px, scene.height_px, scene.behind);
+  }
   const std::vector<const RgbaImage*> behind(scene.views.size(), &background);
   drawn = (*over)->draw(scene.scene, scene.views, behind, colour);
   if (!drawn) {

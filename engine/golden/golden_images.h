@@ -20,7 +20,8 @@ struct GoldenImages {
   RgbaImage over;      ///< over golden_background
 };
 
-/// Draws golden scenes. Keeps one renderer per size, so that many scenes cost little.
+/// Draws golden scenes. Keeps one renderer and background per size, so that many scenes cost
+/// little.
 class GoldenPainter {
  public:
   /// The goldens were made with this rasterizer; others round differently.
@@ -33,12 +34,13 @@ class GoldenPainter {
   [[nodiscard]] const std::vector<std::string>& validation_messages() const { return *messages_; }
 
  private:
-  using Key = std::pair<std::pair<int, int>, render::Blend>;
+  using Size = std::pair<int, int>;
   Result<render::Renderer*> renderer_for(const GoldenScene& scene, render::Blend blend);
   std::string device_;
   bool validation_;
   render::MessageSink messages_;
-  std::map<Key, std::unique_ptr<render::Renderer>> renderers_;
+  std::map<std::pair<Size, render::Blend>, std::unique_ptr<render::Renderer>> renderers_;
+  std::map<std::pair<Size, GoldenBehind>, RgbaImage> backgrounds_;
 };
 
 /// File names of one scene's goldens: labels, additive, over.

@@ -14,11 +14,11 @@ namespace orthonav::engine {
 namespace {
 
 // The table "`best` beside `paper`" in docs/accuracy.md, at reduced n: a change that moves the
-// results of these 16 operations by more than chance requires the table to be measured again.
+// results of these ten operations by more than chance requires the table to be measured again.
 
 /// Operations of each method, seeds from 1, on L5 of the phantom: one of the two levels behind the
 /// table, for half of the time. Levels differ, so its means may lie off to one side.
-constexpr int kOperations = 8;
+constexpr int kOperations = 5;
 /// Operations of each method behind the table.
 constexpr double kOperationsOfTable = 40.0;
 /// An operation without any screw gives no figures; this many must give some.
@@ -56,7 +56,7 @@ constexpr double kStandardErrors = 3.0;
 /// The bar of a mean over n operations. The screws of an operation share a part of their errors,
 /// which the table does not state; if they shared all of it, n operations would count only as n
 /// screws, so SD / sqrt(n) is the largest possible standard error. That of the table's own mean is
-/// added. For the angle of `paper`: 3 * 1.84 * sqrt(1/8 + 1/40) = 2.14 degrees.
+/// added. For the angle of `paper`: 3 * 1.84 * sqrt(1/5 + 1/40) = 2.62 degrees.
 double bar_of(double sd, std::size_t operations) {
   return kStandardErrors * sd *
          std::sqrt(1.0 / static_cast<double>(operations) + 1.0 / kOperationsOfTable);
@@ -69,8 +69,8 @@ bool within_bar(const nlohmann::json& study, const TableRow& row) {
 }
 
 /// The SD of an operation's difference, from the table's interval over at most 40 operations:
-/// half width / 1.96 * sqrt(40). The error at the screws: 1.23 mm, its bar for eight operations
-/// 1.42 mm.
+/// half width / 1.96 * sqrt(40). The error at the screws: 1.23 mm, its bar for five operations
+/// 1.75 mm.
 bool within_bar(const ComparedQuantity& found, const TableDifference& row) {
   const double sd = row.half_width / 1.96 * std::sqrt(kOperationsOfTable);
   return found.operations.size() >= kFewestOperations &&
