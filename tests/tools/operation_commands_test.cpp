@@ -27,6 +27,15 @@ void expect_refusal(const Called& called, const std::string& reason) {
   EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1) << called.err;
 }
 
+/// A folder for results whose prepared models are those of all tests.
+std::string results_in(const ScratchFolder& folder) {
+  const std::string out = folder.file("out");
+  std::filesystem::create_directories(out);
+  std::filesystem::create_directories(ORTHONAV_TEST_MODELS);
+  std::filesystem::create_directory_symlink(ORTHONAV_TEST_MODELS, out + "/models");
+  return out;
+}
+
 TEST(RunCommand, RefusesItsArgumentsBeforeItPreparesAnything) {
   expect_refusal(orthonav({"run", "--headset", "sim:?sed=3", "--case", "/none"}),
                  "unknown key \"sed\"");
@@ -144,8 +153,10 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
 TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {
   const ScratchFolder folder;
   const std::string recording = folder.file("recording");
-  const Called live = orthonav({"run", "--headset", "sim:?seed=3", "--no-reference", "--levels",
-                                "L5", "--frames", "6", "--json", "--record", recording});
+  const std::string out = results_in(folder);
+  const Called live =
+      orthonav({"run", "--headset", "sim:?seed=3", "--no-reference", "--levels", "L5", "--frames",
+                "6", "--json", "--record", recording, "--out", out});
   ASSERT_EQ(live.code, 0) << live.err;
   const json report = json::parse(live.out);
   EXPECT_EQ(report["method"], "best");
@@ -157,8 +168,8 @@ TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {
   EXPECT_EQ(report["why_not"], "ended at setup of L5");
 
   // Without a limit the answer is no: the recording ends before the operation does.
-  const Called again =
-      orthonav({"run", "--headset", "replay:" + recording, "--levels", "L5", "--json"});
+  const Called again = orthonav(
+      {"run", "--headset", "replay:" + recording, "--levels", "L5", "--json", "--out", out});
   EXPECT_EQ(again.code, 1) << again.err;
   EXPECT_EQ(json::parse(again.out)["frames"]["displayed"], 6);
   EXPECT_FALSE(json::parse(again.out).contains("seed")) << "a recording has none";
@@ -176,10 +187,12 @@ TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {
 }
 
 TEST(RunCommand, HasThePatientReferenceUnlessItIsDeclined) {
+  const ScratchFolder folder;
+  const std::string out = results_in(folder);
   for (const auto& [flags, has] : std::vector<std::pair<std::vector<std::string>, bool>>{
            {{}, true}, {{"--no-reference"}, false}, {{"--as-published"}, false}}) {
     std::vector<std::string> all = {"run",      "--headset", "sim:?perfect", "--levels", "L4",
-                                    "--frames", "1",         "--json"};
+                                    "--frames", "1",         "--json",       "--out",    out};
     all.insert(all.end(), flags.begin(), flags.end());
     const Called called = orthonav(all);
     ASSERT_EQ(called.code, 0) << called.err;
@@ -190,7 +203,7 @@ TEST(RunCommand, HasThePatientReferenceUnlessItIsDeclined) {
 
 TEST(RunCommand, CountsWithTheCommonErrorsThatAreGiven) {
   const ScratchFolder folder;
-  const std::string out = folder.file("out");
+  const std::string out = results_in(folder);
   const Called given =
       orthonav({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--frames", "2", "--json",
                 "--out", out, "--tip-sd-mm", "1.5", "--map-sd-mm", "0.2"});
@@ -207,7 +220,7 @@ TEST(RunCommand, CountsWithTheCommonErrorsThatAreGiven) {
 
 TEST(RunCommand, GoesOnWithTheOperationOfAFolderAndWithNoOther) {
   const ScratchFolder folder;
-  const std::string out = folder.file("out");
+  const std::string out = results_in(folder);
   expect_refusal(orthonav({"run", "--resume"}), "--resume requires --out");
   expect_refusal(orthonav({"run", "--resume", "--out", folder.file(".")}),
                  "holds no operation.resume, there is no operation to resume");

@@ -17,7 +17,8 @@ namespace orthonav::preview {
 
 namespace fs = std::filesystem;
 
-/// A shell script run with a display of its own, in an empty folder.
+/// A shell script run with a display of its own, in an empty folder. Its models are prepared once
+/// for all.
 class WindowTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -48,14 +49,19 @@ class WindowTest : public ::testing::Test {
   /// Returns the exit code. `$preview` is the command with a hasty surgeon in a perfect world,
   /// `$server` the X server, which chooses a free display number.
   int shell(const std::string& commands) const {
-    write("commands", "cd '" + folder_.string() + R"('
+    write("commands",
+          "cd '" + folder_.string() +
+              R"('
 mkfifo number
 Xvfb -displayfd 3 -screen 0 1600x1000x24 -nolisten tcp 3>number >/dev/null 2>&1 & server=$!
 trap 'code=$?; kill $server 2>/dev/null; exit $code' EXIT
 read display <number
 export DISPLAY=:$display
-preview=')" ORTHONAV_COMMAND R"( preview --levels L5 --perfect --pace 4 --size 640x360 --out .'
-plan=')" ORTHONAV_COMMAND R"( preview --plan --levels L5 --size 640x360 --out .'
+window=')" ORTHONAV_COMMAND
+              R"( preview --levels L5 --size 640x360 --out . --models )" ORTHONAV_TEST_MODELS R"('
+preview="$window --perfect --pace 4"
+plan="$window --plan"
+unset window
 )" + commands);
     const int status = std::system(("timeout -k 5 120 sh '" + (folder_ / "commands").string() +
                                     "' >'" + (folder_ / "out").string() + "' 2>&1")
