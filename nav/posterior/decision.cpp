@@ -401,7 +401,10 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   out.inlier_fraction = out.answer.hand.inliers / static_cast<double>(tips.size());
   constexpr double kOutlierPower = 18.0;  // 1 of 20 points on average, 3 of 10 once in 600
   out.least_inlier_fraction = std::pow(question.least_predicted, 1.0 / kOutlierPower);
+  // As if the share were drawn from an exponential density with the prior's mean.
+  out.most_shaft_collisions = -prior.shaft_in_bone * std::log(question.least_predicted);
   out.accepted = out.wrong <= question.may_be_wrong &&
+                 out.shaft_collision_fraction <= out.most_shaft_collisions &&
                  out.answer.hand.spread_m <= out.most_scatter_m &&
                  out.inlier_fraction >= out.least_inlier_fraction;
   double squares_m2 = 0.0;

@@ -82,6 +82,9 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
   if (!(d.inlier_fraction >= d.least_inlier_fraction)) {
     reasons.push_back({Kind::kInliers, d.inlier_fraction, d.least_inlier_fraction});
   }
+  if (!(d.shaft_collision_fraction <= d.most_shaft_collisions)) {
+    reasons.push_back({Kind::kShaftCollision, d.shaft_collision_fraction, d.most_shaft_collisions});
+  }
   if (d.wrong <= question.may_be_wrong) {
     return reasons;
   }

@@ -167,6 +167,8 @@ TEST(PosteriorRegistration, ShaftsThatWouldGoThroughBoneSpeakAgainstAPose) {
         off_m, (r.world_from_vertebra * target - strokes.world_from_vertebra * target).norm());
   }
   EXPECT_TRUE(r.shaft_collision_fraction > 0.5 || off_m > 0.01);
+  EXPECT_FALSE(r.accepted);
+  EXPECT_EQ(names(r, Kind::kShaftCollision), r.shaft_collision_fraction > 0.07);
 }
 
 TEST(PosteriorRegistration, ShaftsSpeakOfTheMirrorImageAsOfTheBone) {
