@@ -1,5 +1,4 @@
 #include "engine/case/prepared_parts_file.h"
-#include "base/printed.h"
 
 #include <zlib.h>
 
@@ -8,6 +7,8 @@
 #include <span>
 #include <type_traits>
 #include <vector>
+
+#include "base/printed.h"
 
 namespace orthonav::engine {
 namespace {

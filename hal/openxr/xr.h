@@ -18,7 +18,7 @@ using VkDevice = VkDevice_T*;
 using VkImage = VkImage_T*;
 static_assert(sizeof(void*) == 8, "where pointers are shorter, VkImage is a number");
 using PFN_vkGetInstanceProcAddr = void (*)();
-// Flags, of which newer headers than Debian 12's speak.
+// Flags, which headers newer than those of Debian 12 mention.
 using VkImageCreateFlags = unsigned;
 using VkImageUsageFlags = unsigned;
 // Enumerations, which are ints in C.

@@ -265,30 +265,36 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   if (tried.empty()) {
     return no_pose;
   }
-  // All under the hand of the best one, which is told anew when that is another.
-  std::unique_ptr<Averaged> rough;
-  for (int round = 0; round < 3; ++round) {
-    rough.reset();
-    tried[0].look(observations, prior, Effort::kRough, rough);
+  // All under the hand of the first, which is told anew when another pose of the bone, the one that
+  // is returned, is better. The end where the first has no posterior.
+  const auto look_at_all = [&](Effort effort, double far_worse, std::unique_ptr<Averaged>& shared) {
+    shared.reset();
+    tried[0].look(observations, prior, effort, shared);
     if (!tried[0].found) {
-      tried.erase(tried.begin());
-      if (tried.empty()) {
-        return no_pose;
+      return tried.end();
+    }
+    auto best = tried.begin();
+    for (auto t = tried.begin() + 1; t != tried.end(); ++t) {
+      t->look(observations, prior, effort, shared, tried[0].log_weight() - far_worse);
+      if (t->kind == Explanation::Kind::kAnswer && t->log_weight() > best->log_weight()) {
+        best = t;
       }
-      continue;
     }
-    for (std::size_t i = 1; i < tried.size(); ++i) {
-      tried[i].look(observations, prior, Effort::kRough, rough, tried[0].log_weight() - kFarWorse);
-    }
-    const auto best = std::max_element(
-        tried.begin(), tried.end(),
-        [](const Tried& x, const Tried& y) { return x.log_weight() < y.log_weight(); });
+    return best;
+  };
+  std::unique_ptr<Averaged> rough;
+  for (int round = 0; round < 3 && !tried.empty(); ++round) {
+    const auto best = look_at_all(Effort::kRough, kFarWorse, rough);
     if (best == tried.begin()) {
       break;
     }
-    std::iter_swap(tried.begin(), best);
+    if (best == tried.end()) {
+      tried.erase(tried.begin());
+    } else {
+      std::iter_swap(tried.begin(), best);
+    }
   }
-  if (!rough || !tried[0].found) {
+  if (tried.empty() || !rough || !tried[0].found) {
     return no_pose;
   }
   const std::size_t own_poses = tried.size();
@@ -326,23 +332,16 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
     }
   }
   tried.erase(far, tried.end());
-  // Another pose of the bone may turn out to be the better one: then all are under its hand, once.
-  for (bool again = true, swapped = false; again; swapped = true) {
-    std::unique_ptr<Averaged> full;
-    tried[0].look(observations, prior, Effort::kFull, full);
-    if (!tried[0].found) {
-      return no_pose;
-    }
-    auto best = tried.begin();
-    for (auto t = tried.begin() + 1; t != tried.end(); ++t) {
-      t->look(observations, prior, Effort::kFull, full);
-      const bool own_pose = t->kind == Explanation::Kind::kAnswer;
-      best = own_pose && t->log_weight() > best->log_weight() ? t : best;
-    }
-    again = !swapped && best != tried.begin();
-    if (again) {
-      std::iter_swap(tried.begin(), best);
-    }
+  // Rough looks may have ranked two poses wrongly.
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::unique_ptr<Averaged> full;
+  const auto best = look_at_all(Effort::kFull, kNone, full);
+  if (best != tried.begin() && best != tried.end()) {
+    std::iter_swap(tried.begin(), best);
+    look_at_all(Effort::kFull, kNone, full);
+  }
+  if (!tried[0].found) {
+    return no_pose;
   }
   Decision out;
   out.answer = *tried[0].found;

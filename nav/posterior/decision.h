@@ -42,7 +42,7 @@ struct Decision {
   double inlier_fraction = 0.0;
   double least_inlier_fraction = 0.0;  ///< likewise
   double shaft_collision_fraction = 0.0;
-  double most_shaft_collisions = 0.0;  ///< likewise
+  double most_shaft_collisions = 0.0;  ///< that the prior predicts often enough
   bool accepted = false;
   /// Of the error at the worst target, under the answer: root mean square, and what 95 and 99 of
   /// 100 errors stay below.

@@ -127,8 +127,7 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
   if (counts(of_poses)) {
     reasons.push_back({Kind::kLogLikelihoodRatio, r.log_likelihood_ratio, -limit(1.0)});
   }
-  // Where the points say nothing of the size, its prior alone is no reason: it asks for more
-  // points.
+  // The prior odds of another size are no reason by themselves: the points must speak for it.
   if (counts(of_size) && size_is_seen) {
     reasons.push_back({Kind::kModelSize, r.size, question.size_off});
   }
