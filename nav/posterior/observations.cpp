@@ -50,6 +50,7 @@ void finish(const Observations& observations, Unit& unit) {
   const auto at = [&](std::size_t k) { return observations.strokes[unit.points[k]]; };
   const std::size_t count = unit.points.size();
   unit.stroke = at(0).stroke;
+  unit.area = at(0).area;
   unit.quarter_m = at(count / 4).tip.v;
   unit.three_quarters_m = at(3 * count / 4).tip.v;
   unit.begin_s = at(0).time_s;
@@ -108,34 +109,38 @@ Observations observed(std::span<const Point<World>> points, double tip_radius_m,
   const bool timed =
       times_s.size() == points.size() &&
       std::adjacent_find(times_s.begin(), times_s.end(), std::greater_equal<>()) == times_s.end();
-  // A short excursion that comes back, of a pointer that was lifted, does not end a stroke.
+  // A short excursion that comes back, of a pointer that was lifted, begins nothing.
   constexpr std::size_t kExcursion = 15;
-  int stroke = 0;
-  std::size_t leapt = 0;  // where the last stroke begins
+  int stroke = 0, area = 0;
+  std::size_t leapt = 0;  // where the last area begins
   std::vector<StrokePoint>& all = out.strokes;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_new[i]) {
       continue;
     }
-    if (timed) {
-      stroke += !all.empty() && times_s[i] - all.back().time_s > kPause_s ? 1 : 0;
-    } else if (!all.empty() && (points[i] - all.back().tip).norm() > kLeap_m) {
+    if (!all.empty() && (points[i] - all.back().tip).norm() > kLeap_m) {
       const bool back = leapt > 0 && all.size() - leapt <= kExcursion &&
                         (points[i] - all[leapt - 1].tip).norm() <= kLeap_m;
       if (back) {
-        stroke = all[leapt - 1].stroke;
+        area = all[leapt - 1].area;
         for (std::size_t k = leapt; k < all.size(); ++k) {
-          all[k].stroke = stroke;
+          all[k].area = area;
         }
       } else {
-        ++stroke;
+        ++area;
         leapt = all.size();
       }
     }
-    all.push_back({points[i], stroke, timed ? times_s[i] : static_cast<double>(i) * kPeriod_s,
+    stroke += timed && !all.empty() && times_s[i] - all.back().time_s > kPause_s ? 1 : 0;
+    all.push_back({points[i], stroke, area, timed ? times_s[i] : static_cast<double>(i) * kPeriod_s,
                    shafts.size() == points.size() ? shafts[i] : Vec3{}});
   }
-  out.in_time = timed || static_cast<std::size_t>(2 * (stroke + 1)) <
+  if (!timed) {
+    for (StrokePoint& p : all) {
+      p.stroke = p.area;
+    }
+  }
+  out.in_time = timed || static_cast<std::size_t>(2 * (area + 1)) <
                              std::min<std::size_t>(160, out.strokes.size());
   return out;
 }
@@ -147,7 +152,7 @@ std::vector<Unit> units_of(const Observations& observations, std::size_t most) {
   for (Unit& unit : units) {
     finish(observations, unit);
     if (!observations.in_time) {
-      unit.stroke = number++;
+      unit.stroke = unit.area = number++;
     }
   }
   return units;

@@ -14,6 +14,7 @@ namespace orthonav::nav::posterior {
 struct StrokePoint {
   Point<World> tip;
   int stroke = 0;       ///< which movement of the hand, ascending
+  int area = 0;         ///< of strokes that begin where the one before ended, ascending
   double time_s = 0.0;  ///< ascending within a stroke; meaningless if not `Observations::in_time`
   Vec3 shaft{};         ///< unit, from the tip back along the pointer; zero if not known
 };
@@ -36,9 +37,10 @@ struct Observations {
   double tip_radius_m = 0.0;  ///< of the ball at the pointer's end, whose centre is tracked
 };
 
-/// Observations from points in the order of time. With the time of each, a pause ends a stroke.
-/// Without, they are 1/30 s apart, a leap of more than 8 mm begins another stroke unless the tip is
-/// back within 15 points, and where most steps are leaps the points are in no order. A point within
+/// Observations from points in the order of time. A leap of more than 8 mm begins another area,
+/// unless the tip is back within 15 points. With the time of each, a pause ends a stroke. Without,
+/// they are 1/30 s apart, a stroke is an area, and where most steps are leaps the points are in no
+/// order. A point within
 /// 0.05 mm of an earlier one is the same sample, repeated or resampled, and is left out. `shafts`
 /// and `times_s`: of each point, or none; times that do not ascend tell nothing.
 [[nodiscard]] Observations observed(std::span<const Point<World>> points, double tip_radius_m,
@@ -50,6 +52,7 @@ struct Observations {
 struct Unit {
   static constexpr int kPress = -1;
   int stroke = 0;                     ///< or `kPress`
+  int area = 0;
   std::vector<std::uint32_t> points;  ///< in `Observations::strokes`, or the press
   Vec3 quarter_m;                     ///< World: where its halves lie
   Vec3 three_quarters_m;

@@ -216,8 +216,8 @@ double ratio(int k) { return k == 0 ? 0.0 : kLeastRatio * std::pow(kByRatio, k -
 /// Between it and the next one.
 double ratio_above(int k) { return kLeastRatio * std::pow(kByRatio, k - 0.5); }
 
-/// share, time and its smoothness, tissue, its length and smoothness, strokes, model.
-using Node = std::array<int, 6>;
+/// share, time and its smoothness, tissue, its length and smoothness, strokes, model, whether by area.
+using Node = std::array<int, 7>;
 
 Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
   Mixture out;
@@ -237,6 +237,7 @@ Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
                      node[3] % 2 == 1};
   out.stroke = ratio(node[4]);
   out.model = ratio(node[5]);
+  out.by_area = node[6] == 1;
   return out;
 }
 
@@ -253,8 +254,9 @@ double log_prior_of(const Prior& prior, const Node& node, double s_m, double noi
   if (node[2] > 0) {
     tissue /= 2.0 * static_cast<double>(prior.tissue_lengths_m.size());
   }
-  const double strokes = prior.uneven_hand_share * mass(node[4], uneven) +
-                         (node[4] == 0 ? 1.0 - prior.uneven_hand_share : 0.0);
+  const double strokes = node[4] == 0 ? 1.0 - prior.uneven_hand_share +
+                                            prior.uneven_hand_share * mass(0, uneven)
+                                      : 0.5 * prior.uneven_hand_share * mass(node[4], uneven);
   const double model = mass(node[5], [&](double sd_m) { return model_off_by_less(prior, sd_m); });
   return std::log(tissue) + std::log(strokes) + std::log(model) +
          log_density_of_noise(prior, noise_m);
@@ -332,6 +334,7 @@ struct Averaged::Units {
   std::vector<double> points;         ///< of each
   std::vector<std::uint32_t> wanted;  ///< points of all of them
   double within = 0.0;                ///< dimensions of what is within blocks
+  bool has_areas = false;             ///< of several strokes each, but not all of them
 
   /// Of each unit's points, evenly, about `most_points`.
   Units(const Observations& measured, const Prior& known, const Hand& of, std::size_t most,
@@ -353,10 +356,11 @@ struct Averaged::Units {
         points.push_back(sum);
       }
     }
+    has_areas = !units.empty() && units.back().area > 0 && units.back().area < units.back().stroke;
     for (std::size_t k = 0; k < measured.presses.size(); ++k) {
       const Press& press = measured.presses[k];
       units.push_back(
-          {Unit::kPress, {static_cast<std::uint32_t>(k)}, press.tip.v, press.tip.v, 0.0, 0.0});
+          {Unit::kPress, 0, {static_cast<std::uint32_t>(k)}, press.tip.v, press.tip.v, 0.0, 0.0});
       // Their errors are known in metres: relative to the noise as far as it is known.
       const double sd_m = std::hypot(known.press_sd_m, press.sd_m);
       points.push_back(of.noise_m * of.noise_m / (sd_m * sd_m));
@@ -378,6 +382,11 @@ struct Averaged::Units {
   };
   std::map<Node, std::optional<Factor>> factors;
 
+  /// What a unit of the strokes has a height in common with; those of an act stand together.
+  [[nodiscard]] int act_of(const Mixture& mix, Eigen::Index k) const {
+    const Unit& unit = units[static_cast<std::size_t>(k)];
+    return mix.by_area ? unit.area : unit.stroke;
+  }
   /// Presses come last.
   [[nodiscard]] std::size_t strokes() const { return units.size() - observations.presses.size(); }
 
@@ -432,9 +441,7 @@ struct Averaged::Units {
     for (Eigen::Index b = 0; b < n; ++b) {
       const auto at = static_cast<std::size_t>(b);
       c(b, b) += mix.white / points[at];
-      // Units of a stroke stand together.
-      for (Eigen::Index a = b;
-           a < n && units[static_cast<std::size_t>(a)].stroke == units[at].stroke; ++a) {
+      for (Eigen::Index a = b; a < n && act_of(mix, a) == act_of(mix, b); ++a) {
         c(a, b) += mix.stroke * mix.stroke;
       }
     }
@@ -745,13 +752,16 @@ std::vector<Node> neighbours_of(const Node& node, const Averaged::Units& units) 
   constexpr std::size_t kTime = 1;
   constexpr std::size_t kTissue = 2;
   constexpr std::size_t kLength = 3;
+  constexpr std::size_t kStroke = 4;
+  constexpr std::size_t kByArea = 6;
   const bool in_time = units.observations.in_time;
   const int lengths = 2 * static_cast<int>(units.prior.tissue_lengths_m.size());
+  const int acts = units.has_areas ? 2 : 1;
   const Node size = {
-      in_time ? kShares : 1, in_time ? 2 * kTimes : 1, kRatios, lengths, kRatios, kRatios};
+      in_time ? kShares : 1, in_time ? 2 * kTimes : 1, kRatios, lengths, kRatios, kRatios, acts};
   std::vector<Node> out;
   for (std::size_t k = 0; k < node.size(); ++k) {
-    if (k == kLength && node[kTissue] == 0) {
+    if ((k == kLength && node[kTissue] == 0) || (k == kByArea && node[kStroke] == 0)) {
       continue;  // without tissue its length means nothing
     }
     // Every other length, or time, is of the same smoothness.
@@ -765,12 +775,19 @@ std::vector<Node> neighbours_of(const Node& node, const Averaged::Units& units) 
       if (next[kTissue] == 0) {
         next[kLength] = kNoLength;
       }
+      if (next[kStroke] == 0) {
+        next[kByArea] = 0;
+      }
       out.push_back(next);
+      if (k == kStroke && node[kStroke] == 0 && acts == 2) {
+        next[kByArea] = 1;
+        out.push_back(next);
+      }
       if (k == kTime && std::abs(by) == 1) {
         // Noise of the other smoothness fits best with another white share.
         for (const int share : {node[0] - 1, node[0] + 1}) {
           if (share >= 0 && share < size[0]) {
-            out.push_back({share, next[1], next[2], next[3], next[4], next[5]});
+            out.push_back({share, next[1], next[2], next[3], next[4], next[5], next[6]});
           }
         }
       }
@@ -792,14 +809,17 @@ void sort_by_weight(Answers& answers) {
 }
 
 /// A few points of all the grid.
-std::vector<Node> scattered(bool in_time) {
+std::vector<Node> scattered(bool in_time, bool has_areas) {
   std::vector<Node> out;
   for (const int share : in_time ? std::vector<int>{1, 3, 5} : std::vector<int>{0}) {
     for (const int time : in_time ? std::vector<int>{6, 7, 12} : std::vector<int>{0}) {
-      out.push_back({share, time, 0, kNoLength, 0, 0});
-      out.push_back({share, time, 2, kNoLength, 0, 0});
-      out.push_back({share, time, 0, kNoLength, 2, 0});
-      out.push_back({share, time, 0, kNoLength, 0, 2});
+      out.push_back({share, time, 0, kNoLength, 0, 0, 0});
+      out.push_back({share, time, 2, kNoLength, 0, 0, 0});
+      out.push_back({share, time, 0, kNoLength, 2, 0, 0});
+      out.push_back({share, time, 0, kNoLength, 0, 2, 0});
+      if (has_areas) {
+        out.push_back({share, time, 0, kNoLength, 2, 0, 1});
+      }
     }
   }
   return out;
@@ -976,16 +996,15 @@ std::vector<EstimatedHeight> heights_of(Averaged::Units& units, const Touches& t
     };
     add(of.tissue, of.tissue_over, n);
     add(of.model, {units.prior.model_length_m, true}, m);
-    std::map<int, double> of_stroke;
+    std::map<int, double> of_act;
     for (Eigen::Index k = 0; k < n; ++k) {
-      of_stroke[units.units[static_cast<std::size_t>(k)].stroke] += solved(k);
+      of_act[units.act_of(of, k)] += solved(k);
     }
     const double p = std::exp(a.log_weight - likeliest_first.front().second.log_weight);
     sum += p;
     for (Eigen::Index k = 0; k < n; ++k) {
-      const int stroke = units.units[static_cast<std::size_t>(k)].stroke;
       mean(k) += p * (a.part.standoff_m + valleys(k) + fields(k) +
-                      of.stroke * of.stroke * of_stroke[stroke]);
+                      of.stroke * of.stroke * of_act[units.act_of(of, k)]);
     }
   }
   std::vector<EstimatedHeight> out;
@@ -1068,7 +1087,7 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
     }
     Averaged::Units& few = shared->few();
     here = touches_at(observations, bone, from_world, few.wanted, told_here ? &all : nullptr);
-    nodes = explored(few, few.columns_of(here), scattered(observations.in_time), least);
+    nodes = explored(few, few.columns_of(here), scattered(observations.in_time, few.has_areas), least);
     if (nodes.empty()) {
       return std::nullopt;
     }

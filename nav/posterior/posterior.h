@@ -21,7 +21,7 @@ namespace orthonav::nav::posterior {
 //
 // s >= 0 is the mean height of the tip (tissue, a light hand), u a Gaussian field over the bone
 // (tissue's thickness), v how deep in a valley the place lies (tissue is thick there, by an unknown
-// c), f another field (the model is not the bone), g a height per stroke, n the noise of hand and
+// c), f another field (the model is not the bone), g a height per stroke or per area, n the noise of hand and
 // tracker: white from point to point, and wandering along a stroke (Ornstein-Uhlenbeck). Or the
 // point has nothing to do with the bone, and d is anything within a range.
 //
@@ -49,7 +49,8 @@ struct Mixture {
   Correlated noise;     ///< the rest, in time
   double tissue = 0.0;  ///< SD of tissue over the bone, of the noise's SD; 0: there is none
   Correlated tissue_over;
-  double stroke = 0.0;  ///< SD of the strokes' heights, of the noise's SD
+  double stroke = 0.0;  ///< SD of the heights of strokes, or of areas, of the noise's SD
+  bool by_area = false;
   double model = 0.0;   ///< SD of the model's error, of the noise's SD
 };
 
