@@ -51,7 +51,7 @@ struct Observations {
 /// of space; or a press. Depends on places in World only, so that all hypotheses have the same.
 struct Unit {
   static constexpr int kPress = -1;
-  int stroke = 0;                     ///< or `kPress`
+  int stroke = 0;  ///< or `kPress`
   int area = 0;
   std::vector<std::uint32_t> points;  ///< in `Observations::strokes`, or the press
   Vec3 quarter_m;                     ///< World: where its halves lie

@@ -216,7 +216,8 @@ double ratio(int k) { return k == 0 ? 0.0 : kLeastRatio * std::pow(kByRatio, k -
 /// Between it and the next one.
 double ratio_above(int k) { return kLeastRatio * std::pow(kByRatio, k - 0.5); }
 
-/// share, time and its smoothness, tissue, its length and smoothness, strokes, model, whether by area.
+/// share, time and its smoothness, tissue, its length and smoothness, strokes, model, whether by
+/// area.
 using Node = std::array<int, 7>;
 
 Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
@@ -254,9 +255,9 @@ double log_prior_of(const Prior& prior, const Node& node, double s_m, double noi
   if (node[2] > 0) {
     tissue /= 2.0 * static_cast<double>(prior.tissue_lengths_m.size());
   }
-  const double strokes = node[4] == 0 ? 1.0 - prior.uneven_hand_share +
-                                            prior.uneven_hand_share * mass(0, uneven)
-                                      : 0.5 * prior.uneven_hand_share * mass(node[4], uneven);
+  const double strokes =
+      node[4] == 0 ? 1.0 - prior.uneven_hand_share + prior.uneven_hand_share * mass(0, uneven)
+                   : 0.5 * prior.uneven_hand_share * mass(node[4], uneven);
   const double model = mass(node[5], [&](double sd_m) { return model_off_by_less(prior, sd_m); });
   return std::log(tissue) + std::log(strokes) + std::log(model) +
          log_density_of_noise(prior, noise_m);
@@ -366,7 +367,7 @@ struct Averaged::Units {
       points.push_back(of.noise_m * of.noise_m / (sd_m * sd_m));
     }
     if (of.blocks > 0.0) {
-      within = known.point_counts * std::max(0.0, of.inliers - static_cast<double>(strokes()));
+      within = std::max(0.0, of.inliers - static_cast<double>(strokes()));
     }
   }
 
@@ -679,7 +680,7 @@ std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, con
   };
   const double fixed = -0.5 * factor->log_determinant -
                        0.5 * units.within * factor->log_determinant_within +
-                       prior.point_counts * units.hand.log_outliers;
+                       units.hand.log_outliers;
   const double log_nuisance = std::log(valley) + 3.0 * std::log(shift);
   const double log_pose = llt.matrixLLT().diagonal().array().log().sum() + log_nuisance;
   const OverStandoff over =
@@ -1087,7 +1088,8 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
     }
     Averaged::Units& few = shared->few();
     here = touches_at(observations, bone, from_world, few.wanted, told_here ? &all : nullptr);
-    nodes = explored(few, few.columns_of(here), scattered(observations.in_time, few.has_areas), least);
+    nodes =
+        explored(few, few.columns_of(here), scattered(observations.in_time, few.has_areas), least);
     if (nodes.empty()) {
       return std::nullopt;
     }

@@ -21,9 +21,10 @@ namespace orthonav::nav::posterior {
 //
 // s >= 0 is the mean height of the tip (tissue, a light hand), u a Gaussian field over the bone
 // (tissue's thickness), v how deep in a valley the place lies (tissue is thick there, by an unknown
-// c), f another field (the model is not the bone), g a height per stroke or per area, n the noise of hand and
-// tracker: white from point to point, and wandering along a stroke (Ornstein-Uhlenbeck). Or the
-// point has nothing to do with the bone, and d is anything within a range.
+// c), f another field (the model is not the bone), g a height per stroke or per area, n the noise
+// of hand and tracker: white from point to point, and wandering along a stroke
+// (Ornstein-Uhlenbeck). Or the point has nothing to do with the bone, and d is anything within a
+// range.
 //
 // Of a press, d is a gap in place of s, and f. The bone may have moved in World since the strokes;
 // the pose is that under the presses. What shifts strokes and presses alike adds to its covariance.
@@ -51,7 +52,7 @@ struct Mixture {
   Correlated tissue_over;
   double stroke = 0.0;  ///< SD of the heights of strokes, or of areas, of the noise's SD
   bool by_area = false;
-  double model = 0.0;   ///< SD of the model's error, of the noise's SD
+  double model = 0.0;  ///< SD of the model's error, of the noise's SD
 };
 
 /// What one point of the grid says.

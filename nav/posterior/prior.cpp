@@ -12,12 +12,14 @@ namespace orthonav::nav::posterior {
 double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
 double log_density_of_standoff(const Prior& prior, double s_m) {
-  const auto half_normal = [&](double scale_m) {
-    return std::sqrt(2.0 / std::numbers::pi) / scale_m *
-           std::exp(-0.5 * s_m * s_m / (scale_m * scale_m));
-  };
-  return std::log(prior.bare_share * half_normal(prior.bare_m) +
-                  (1.0 - prior.bare_share) * half_normal(prior.tissue_m));
+  // The integral of half-normal densities over the logarithm of their scale.
+  const double bare = s_m / prior.bare_m;
+  const double tissue = s_m / prior.tissue_m;
+  constexpr double kNearZero = 1e-6;
+  const double density_m = bare > kNearZero ? 2.0 * (normal_cdf(-tissue) - normal_cdf(-bare)) / s_m
+                                            : std::sqrt(2.0 / std::numbers::pi) *
+                                                  (1.0 / prior.bare_m - 1.0 / prior.tissue_m);
+  return std::log(density_m / std::log(prior.tissue_m / prior.bare_m));
 }
 
 double varies_by_less(const Prior& prior, double sd_m, double s_m) {
@@ -49,8 +51,8 @@ double scatter_exceeded_m(const Prior& prior, double probability) {
   Random random(7);
   std::vector<double> spreads_m;
   for (int k = 0; k < kDraws; ++k) {
-    const bool bare = random.uniform() < prior.bare_share;
-    const double s_m = std::abs(random.normal(0.0, bare ? prior.bare_m : prior.tissue_m));
+    const double scale_m = prior.bare_m * std::pow(prior.tissue_m / prior.bare_m, random.uniform());
+    const double s_m = std::abs(random.normal(0.0, scale_m));
     const auto uneven = [&] {
       return prior.unevenness * std::exp(random.normal(0.0, prior.unevenness_log_sd)) * s_m;
     };

@@ -10,11 +10,10 @@ namespace orthonav::nav::posterior {
 struct Prior {
   // Soft tissue, or a light hand: the mean height s of the tip, and how uneven it is.
 
-  /// Share of registrations over bare bone, whose s is of the size of `bare_m`. A guess. Doubled:
-  /// nothing over clean strokes, which tell it themselves.
-  double bare_share = 0.5;
-  double bare_m = 0.0001;  ///< scale of s over bare bone (half-normal). A guess; doubled: nothing
-  /// Scale of s over tissue (half-normal). A guess: facets carry up to 2 mm, valleys more.
+  /// s is half-normal, of a scale between bare bone's and thick tissue's, evenly in its logarithm.
+  /// Guesses: on bare bone it is no less than under a press, facets carry up to 2 mm of tissue.
+  /// Either doubled: nothing over clean strokes, which tell s themselves.
+  double bare_m = 0.0002;
   double tissue_m = 0.002;
   /// SD of tissue's thickness over the bone, of its mean: median, and SD of its logarithm. Tissue
   /// is never even. A guess. Median doubled: even tissue loses half a unit of log evidence.
@@ -50,12 +49,6 @@ struct Prior {
   double white_share_least = 0.01;
   double shortest_s = 0.05;  ///< correlation time of what is not, evenly in its logarithm
   double longest_s = 2.0;
-
-  /// How much a point's deviation within its block counts, of an independent observation. The noise
-  /// is not exactly white and wandering: its spectrum at short lags must not decide its correlation
-  /// at long ones. A debt: chosen on strokes of our own (noisy ones, seeds 1 and 2); at 1 and at
-  /// 0.1 the pose is a tenth less exact there.
-  double point_counts = 0.3;
 
   // A press of the tip on bare bone.
 
