@@ -216,29 +216,47 @@ double ratio(int k) { return k == 0 ? 0.0 : kLeastRatio * std::pow(kByRatio, k -
 /// Between it and the next one.
 double ratio_above(int k) { return kLeastRatio * std::pow(kByRatio, k - 0.5); }
 
-/// share, time and its smoothness, tissue, its length and smoothness, strokes, model, whether by
-/// area.
+/// Indices of what a point of the grid is made of. Even times and lengths are rough, odd smooth.
+enum Index : std::size_t { kShare, kTime, kTissue, kLength, kStroke, kModel, kByArea };
 using Node = std::array<int, 7>;
+
+/// An index that means nothing where another one has this value; it then has a value of its own.
+struct Detail {
+  std::size_t detail;
+  std::size_t of;
+  int means_nothing_at;
+  int then;
+};
+constexpr Detail kDetails[] = {
+    {kTime, kShare, kShares - 1, 0}, {kLength, kTissue, 0, 0}, {kByArea, kStroke, 0, 0}};
+Node canonical(Node node) {
+  for (const Detail& d : kDetails) {
+    if (node[d.of] == d.means_nothing_at) {
+      node[d.detail] = d.then;
+    }
+  }
+  return node;
+}
 
 Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
   Mixture out;
   if (in_time) {
     const double least = std::log(prior.white_share_least / (1.0 - prior.white_share_least));
-    const double log_odds = least * (1.0 - 2.0 * node[0] / (kShares - 1.0));
-    out.white = 1.0 / (1.0 + std::exp(-log_odds));
+    const double log_odds = least * (1.0 - 2.0 * node[kShare] / (kShares - 1.0));
+    out.white = node[kShare] == kShares - 1 ? 1.0 : 1.0 / (1.0 + std::exp(-log_odds));
     out.noise = {prior.shortest_s *
-                     std::pow(prior.longest_s / prior.shortest_s, node[1] / 2 / (kTimes - 1.0)),
-                 node[1] % 2 == 1};
+                     std::pow(prior.longest_s / prior.shortest_s, node[kTime] / 2 / (kTimes - 1.0)),
+                 node[kTime] % 2 == 1};
   } else {
     out.white = 1.0;
     out.noise = {prior.longest_s, false};
   }
-  out.tissue = ratio(node[2]);
-  out.tissue_over = {prior.tissue_lengths_m[static_cast<std::size_t>(node[3]) / 2],
-                     node[3] % 2 == 1};
-  out.stroke = ratio(node[4]);
-  out.model = ratio(node[5]);
-  out.by_area = node[6] == 1;
+  out.tissue = ratio(node[kTissue]);
+  out.tissue_over = {prior.tissue_lengths_m[static_cast<std::size_t>(node[kLength]) / 2],
+                     node[kLength] % 2 == 1};
+  out.stroke = ratio(node[kStroke]);
+  out.model = ratio(node[kModel]);
+  out.by_area = node[kByArea] == 1;
   return out;
 }
 
@@ -251,15 +269,17 @@ double log_prior_of(const Prior& prior, const Node& node, double s_m, double noi
     return std::max(0.0, high - low);
   };
   const auto uneven = [&](double sd_m) { return varies_by_less(prior, sd_m, s_m); };
-  double tissue = mass(node[2], uneven);
-  if (node[2] > 0) {
-    tissue /= 2.0 * static_cast<double>(prior.tissue_lengths_m.size());
-  }
-  const double strokes =
-      node[4] == 0 ? 1.0 - prior.uneven_hand_share + prior.uneven_hand_share * mass(0, uneven)
-                   : 0.5 * prior.uneven_hand_share * mass(node[4], uneven);
-  const double model = mass(node[5], [&](double sd_m) { return model_off_by_less(prior, sd_m); });
-  return std::log(tissue) + std::log(strokes) + std::log(model) +
+  const double tissue = mass(node[kTissue], uneven);
+  const double strokes = prior.uneven_hand_share * mass(node[kStroke], uneven) +
+                         (node[kStroke] == 0 ? 1.0 - prior.uneven_hand_share : 0.0);
+  const double model =
+      mass(node[kModel], [&](double sd_m) { return model_off_by_less(prior, sd_m); });
+  // What is not said of them is equally likely.
+  const double times = node[kShare] == kShares - 1 ? 1.0 : 2.0 * kTimes;
+  const double lengths =
+      node[kTissue] == 0 ? 1.0 : 2.0 * static_cast<double>(prior.tissue_lengths_m.size());
+  const double acts = node[kStroke] == 0 ? 1.0 : 2.0;
+  return std::log(tissue / lengths) + std::log(strokes / acts) + std::log(model / times) +
          log_density_of_noise(prior, noise_m);
 }
 
@@ -745,25 +765,27 @@ double most_of(const Answers& answers) {
   return most;
 }
 
-/// Where the length of tissue stands in a point of the grid that has no tissue.
-constexpr int kNoLength = 3;
+/// How many values each index of a point of the grid has.
+Node size_of_grid(const Averaged::Units& units) {
+  const bool in_time = units.observations.in_time;
+  return {in_time ? kShares : 1,
+          in_time ? 2 * kTimes : 1,
+          kRatios,
+          2 * static_cast<int>(units.prior.tissue_lengths_m.size()),
+          kRatios,
+          kRatios,
+          units.has_areas ? 2 : 1};
+}
 
 /// The points of the grid next to one.
-std::vector<Node> neighbours_of(const Node& node, const Averaged::Units& units) {
-  constexpr std::size_t kTime = 1;
-  constexpr std::size_t kTissue = 2;
-  constexpr std::size_t kLength = 3;
-  constexpr std::size_t kStroke = 4;
-  constexpr std::size_t kByArea = 6;
-  const bool in_time = units.observations.in_time;
-  const int lengths = 2 * static_cast<int>(units.prior.tissue_lengths_m.size());
-  const int acts = units.has_areas ? 2 : 1;
-  const Node size = {
-      in_time ? kShares : 1, in_time ? 2 * kTimes : 1, kRatios, lengths, kRatios, kRatios, acts};
+std::vector<Node> neighbours_of(const Node& node, const Node& size) {
   std::vector<Node> out;
   for (std::size_t k = 0; k < node.size(); ++k) {
-    if ((k == kLength && node[kTissue] == 0) || (k == kByArea && node[kStroke] == 0)) {
-      continue;  // without tissue its length means nothing
+    const bool means_nothing = std::any_of(
+        std::begin(kDetails), std::end(kDetails),
+        [&](const Detail& d) { return d.detail == k && node[d.of] == d.means_nothing_at; });
+    if (means_nothing) {
+      continue;
     }
     // Every other length, or time, is of the same smoothness.
     for (const int by :
@@ -773,28 +795,23 @@ std::vector<Node> neighbours_of(const Node& node, const Averaged::Units& units) 
       if (next[k] < 0 || next[k] >= size[k]) {
         continue;
       }
-      if (next[kTissue] == 0) {
-        next[kLength] = kNoLength;
-      }
-      if (next[kStroke] == 0) {
-        next[kByArea] = 0;
-      }
-      out.push_back(next);
-      if (k == kStroke && node[kStroke] == 0 && acts == 2) {
-        next[kByArea] = 1;
-        out.push_back(next);
-      }
-      if (k == kTime && std::abs(by) == 1) {
-        // Noise of the other smoothness fits best with another white share.
-        for (const int share : {node[0] - 1, node[0] + 1}) {
-          if (share >= 0 && share < size[0]) {
-            out.push_back({share, next[1], next[2], next[3], next[4], next[5], next[6]});
+      out.push_back(canonical(next));
+      for (const Detail& d : kDetails) {
+        if (d.of == k && node[k] == d.means_nothing_at) {
+          // It begins to mean something.
+          for (next[d.detail] = 0; next[d.detail] < size[d.detail]; ++next[d.detail]) {
+            out.push_back(next);
           }
         }
       }
-      if (k == kTissue && node[kTissue] == 0) {
-        for (next[kLength] = 0; next[kLength] < lengths; ++next[kLength]) {
-          out.push_back(next);
+      if (k == kTime && std::abs(by) == 1) {
+        // Noise of the other smoothness fits best with another white share.
+        for (const int share : {node[kShare] - 1, node[kShare] + 1}) {
+          if (share >= 0 && share < size[kShare]) {
+            Node diagonal = next;
+            diagonal[kShare] = share;
+            out.push_back(canonical(diagonal));
+          }
         }
       }
     }
@@ -810,16 +827,24 @@ void sort_by_weight(Answers& answers) {
 }
 
 /// A few points of all the grid.
-std::vector<Node> scattered(bool in_time, bool has_areas) {
+std::vector<Node> scattered(const Node& size) {
   std::vector<Node> out;
+  const bool in_time = size[kShare] > 1;
   for (const int share : in_time ? std::vector<int>{1, 3, 5} : std::vector<int>{0}) {
     for (const int time : in_time ? std::vector<int>{6, 7, 12} : std::vector<int>{0}) {
-      out.push_back({share, time, 0, kNoLength, 0, 0, 0});
-      out.push_back({share, time, 2, kNoLength, 0, 0, 0});
-      out.push_back({share, time, 0, kNoLength, 2, 0, 0});
-      out.push_back({share, time, 0, kNoLength, 0, 2, 0});
-      if (has_areas) {
-        out.push_back({share, time, 0, kNoLength, 2, 0, 1});
+      const Node even{share, time};
+      out.push_back(even);
+      for (const std::size_t uneven : {kTissue, kStroke, kModel}) {
+        out.push_back(even);
+        out.back()[uneven] = 2;
+        if (uneven == kTissue) {
+          out.back()[kLength] = 3;
+        }
+      }
+      if (size[kByArea] > 1) {
+        out.push_back(even);
+        out.back()[kStroke] = 2;
+        out.back()[kByArea] = 1;
       }
     }
   }
@@ -839,6 +864,7 @@ std::vector<Node> explored(Averaged::Units& units, const Columns& columns,
   constexpr std::size_t kKept = 48;
   constexpr std::size_t kGoodMany = 100;
   constexpr double kFarBelow = 40.0;
+  const Node size = size_of_grid(units);
   std::set<Node> seen;
   std::vector<std::pair<double, Node>> found;
   std::priority_queue<std::pair<double, Node>> likely;
@@ -865,7 +891,7 @@ std::vector<Node> explored(Averaged::Units& units, const Columns& columns,
     if (seen.size() >= kGoodMany && most < least - kFarBelow) {
       return {};
     }
-    for (const Node& next : neighbours_of(node, units)) {
+    for (const Node& next : neighbours_of(node, size)) {
       look(next);
     }
   }
@@ -1088,8 +1114,7 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
     }
     Averaged::Units& few = shared->few();
     here = touches_at(observations, bone, from_world, few.wanted, told_here ? &all : nullptr);
-    nodes =
-        explored(few, few.columns_of(here), scattered(observations.in_time, few.has_areas), least);
+    nodes = explored(few, few.columns_of(here), scattered(size_of_grid(few)), least);
     if (nodes.empty()) {
       return std::nullopt;
     }
