@@ -74,7 +74,9 @@ struct Prior {
   // Rivals.
 
   double mirror_odds = 2e-4;  ///< that left and right are swapped somewhere: a guess
-  double size_share = 0.02;   ///< that the model has another size, with this SD: a guess
+  /// That the model has another size, with this SD. Guesses: a spacing that was misread. Share
+  /// doubled: strokes that leave the size open are refused for its prior odds alone.
+  double size_share = 0.01;
   double size_sd = 0.05;
 };
 

@@ -93,7 +93,6 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
     return std::log(question.may_be_wrong / (1.0 - question.may_be_wrong) / odds);
   };
   double of_width = 0.0, of_poses = 0.0, of_mirror = 0.0, of_size = 0.0;
-  bool size_is_seen = false;
   for (const Explanation& e : d.explanations) {
     const double wrong = e.probability * e.wrong;
     switch (e.kind) {
@@ -108,7 +107,6 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
         break;
       case Explanation::Kind::kSize:
         of_size += wrong;
-        size_is_seen = e.log_ratio > 0.0;
         break;
     }
   }
@@ -127,8 +125,7 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
   if (counts(of_poses)) {
     reasons.push_back({Kind::kLogLikelihoodRatio, r.log_likelihood_ratio, -limit(1.0)});
   }
-  // The prior odds of another size are no reason by themselves: the points must speak for it.
-  if (counts(of_size) && size_is_seen) {
+  if (counts(of_size)) {
     reasons.push_back({Kind::kModelSize, r.size, question.size_off});
   }
   if (counts(of_width) || reasons.empty()) {
