@@ -17,7 +17,7 @@
 #include "engine/case/case_file.h"
 #include "engine/case/tool_file.h"
 #include "engine/phantom/phantom.h"
-#include "nav/posterior/registered.h"
+#include "nav/registration/registered.h"
 #include "study/guided_statistics.h"
 #include "study/set_up.h"
 #include "study/simulated_operation.h"

@@ -5,7 +5,7 @@
 #include "bench/registration_peers.h"
 #include "engine/session/text/wording.h"
 #include "nav/guidance/predicted_error.h"
-#include "nav/posterior/registered.h"
+#include "nav/registration/registered.h"
 #include "nav/published/registration.h"
 
 namespace orthonav::bench {

@@ -1,4 +1,4 @@
-#include "nav/posterior/observations.h"
+#include "nav/registration/observations.h"
 
 #include <algorithm>
 #include <cmath>

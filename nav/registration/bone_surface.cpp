@@ -1,4 +1,4 @@
-#include "nav/posterior/bone_surface.h"
+#include "nav/registration/bone_surface.h"
 
 #include <algorithm>
 #include <cmath>

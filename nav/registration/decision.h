@@ -6,7 +6,7 @@
 
 #include "base/result.h"
 #include "base/transform.h"
-#include "nav/posterior/posterior.h"
+#include "nav/registration/posterior.h"
 #include "nav/registration/registration.h"
 
 namespace orthonav::nav::posterior {

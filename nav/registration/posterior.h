@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "nav/posterior/bone_surface.h"
-#include "nav/posterior/observations.h"
-#include "nav/posterior/prior.h"
+#include "nav/registration/bone_surface.h"
+#include "nav/registration/observations.h"
+#include "nav/registration/prior.h"
 
 namespace orthonav::nav::posterior {
 

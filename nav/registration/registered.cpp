@@ -1,4 +1,4 @@
-#include "nav/posterior/registered.h"
+#include "nav/registration/registered.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "nav/posterior/decision.h"
+#include "nav/registration/decision.h"
 #include "nav/registration/degeneracy.h"
 #include "nav/registration/errors_at_targets.h"
 #include "nav/registration/pose_candidates.h"

@@ -1,4 +1,4 @@
-#include "nav/posterior/posterior.h"
+#include "nav/registration/posterior.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "nav/posterior/decision.h"
+#include "nav/registration/decision.h"
 
 #include <algorithm>
 #include <cmath>

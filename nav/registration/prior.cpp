@@ -1,4 +1,4 @@
-#include "nav/posterior/prior.h"
+#include "nav/registration/prior.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "nav/posterior/registered.h"
+#include "nav/registration/registered.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/phantom/phantom.h"
-#include "nav/posterior/prior.h"
+#include "nav/registration/prior.h"
 #include "tests/support/digitized_strokes.h"
 #include "tests/support/stroke_truths.h"
 

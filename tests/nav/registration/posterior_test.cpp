@@ -1,4 +1,4 @@
-#include "nav/posterior/posterior.h"
+#include "nav/registration/posterior.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "base/random.h"
 #include "engine/phantom/phantom.h"
 #include "nav/geometry/triangle.h"
-#include "nav/posterior/decision.h"
+#include "nav/registration/decision.h"
 #include "tests/support/digitized_strokes.h"
 #include "tests/support/stroke_truths.h"
 
