@@ -5,7 +5,6 @@
 #include "bench/registration_peers.h"
 #include "engine/session/text/wording.h"
 #include "nav/guidance/predicted_error.h"
-#include "nav/registration/registered.h"
 #include "nav/published/registration.h"
 
 namespace orthonav::bench {
@@ -64,20 +63,17 @@ RegistrationMethod paper() {
           true};
 }
 
-using Search = Result<nav::Registration>(const nav::VertebraModel&, std::span<const Point<World>>,
-                                         const nav::PoseSearchRegistrationOptions&);
-
-RegistrationMethod by_search(const char* name, Search* search, double common_m) {
-  return {name,
-          [search, common_m](const BenchLevel& level) -> Fit {
+RegistrationMethod best(double common_m) {
+  return {"best",
+          [common_m](const BenchLevel& level) -> Fit {
             nav::PoseSearchRegistrationOptions options;
             options.targets = nav::entries_and_targets(level.screws);
             options.common.tip_m = common_m;
             options.neighbours = level.neighbours;
-            return [search, model = level.model, options](std::span<const Point<World>> points,
-                                                          std::span<const double> times_s) mutable {
+            return [model = level.model, options](std::span<const Point<World>> points,
+                                                  std::span<const double> times_s) mutable {
               options.times_s.assign(times_s.begin(), times_s.end());
-              return told_by(search(*model, points, options));
+              return told_by(nav::register_by_pose_search(*model, points, options));
             };
           },
           true};
@@ -88,8 +84,7 @@ RegistrationMethod by_search(const char* name, Search* search, double common_m) 
 std::vector<RegistrationMethod> registration_methods(double common_m) {
   std::vector<RegistrationMethod> methods{
       paper(),
-      by_search("best", &nav::register_by_pose_search, common_m),
-      by_search("posterior", &nav::posterior::register_by_posterior, common_m),
+      best(common_m),
   };
 #ifdef ORTHONAV_BENCH_PCL
   for (auto& peer : pcl_methods()) {

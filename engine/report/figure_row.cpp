@@ -31,13 +31,6 @@ std::string judged_cell(const JudgedFigure& figure) {
   return judged_cell(text_of_figure(figure), figure.bound, figure.keeps_limit());
 }
 
-std::string narrow_judged_cell(const JudgedFigure& figure) {
-  if (figure.keeps_limit()) {
-    return judged_cell(figure);
-  }
-  return "<td class=bad>" + text_of_figure(figure) + " ✗</td>";
-}
-
 std::string judged_cell(const std::string& text, Bound bound, bool keeps_limit) {
   if (bound == Bound::kNone) {
     return "<td>" + text + "</td>";

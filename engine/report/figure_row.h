@@ -21,8 +21,6 @@ struct JudgedFigure {
 /// The figure's cell: a tick if it keeps its limit; otherwise a cross and "over the limit" or
 /// "below the limit", with enough decimals to tell it from the limit. The colour matches.
 [[nodiscard]] std::string judged_cell(const JudgedFigure& figure);
-/// For tables with many columns: the cross without the words.
-[[nodiscard]] std::string narrow_judged_cell(const JudgedFigure& figure);
 /// The same for an already judged text.
 [[nodiscard]] std::string judged_cell(const std::string& text, Bound bound, bool keeps_limit);
 

@@ -117,7 +117,7 @@ std::optional<RunnerUpDistance> runner_up_distance(const RegisteredLevel& level)
 }
 
 bool sides_told_apart(const nav::Registration& r) {
-  return r.mirror_log_likelihood < -nav::PoseSearchRegistrationOptions{}.max_mirror_log_likelihood;
+  return r.mirror_log_likelihood < -nav::registration_limits().mirror_log_likelihood;
 }
 
 std::string ambiguity_of(const RegisteredLevel& level) {
@@ -143,8 +143,8 @@ std::string ambiguity_of(const RegisteredLevel& level) {
            formatted("with an RMSE of %.2f mm (this one %.2f mm)", r.runner_up_rmse_m * 1e3,
                      r.rmse_m * 1e3);
   }
-  const double limit = nav::PoseSearchRegistrationOptions{}.min_log_likelihood_ratio;
-  const std::string by = formatted(" (margin %.0f, at least %.0f)", r.log_likelihood_ratio, limit);
+  const double limit = nav::registration_limits().log_likelihood_ratio;
+  const std::string by = formatted(" (margin %.1f, at least %.1f)", r.log_likelihood_ratio, limit);
   return r.log_likelihood_ratio >= limit
              ? "unambiguous: the next best pose, " + where + "clearly worse" + by + unchecked
              : "ambiguous: another pose, " + where + "nearly as well" + by + unchecked;

@@ -22,15 +22,14 @@ JudgedFigure at_least(double value, int decimals, double limit, int limit_decima
 std::string log_likelihood_ratio_row(const nav::Registration& r, double least) {
   const std::string name = "Margin of the next best pose";
   const std::string meaning = "how much worse it explains the points (log-likelihood ratio)";
-  const JudgedFigure margin = at_least(r.log_likelihood_ratio, 1, least, 0);
+  const JudgedFigure margin = at_least(r.log_likelihood_ratio, 1, least, 1);
   return std::isfinite(r.log_likelihood_ratio)
              ? figure_row(name, margin, meaning)
              : figure_row(name, judged_cell("none near", margin.bound, margin.keeps_limit()),
                           limit_text(margin), meaning);
 }
 
-std::string rows_of_hypotheses(const nav::Registration& r,
-                               const nav::PoseSearchRegistrationOptions& limits) {
+std::string rows_of_hypotheses(const nav::Registration& r, const nav::RegistrationLimits& limits) {
   const std::string levels =
       !r.fits_better.empty()   ? "the points fit " + html_escaped(r.fits_better) + " as well"
       : r.levels_compared == 0 ? "none is known: the level could not be checked"
@@ -39,7 +38,7 @@ std::string rows_of_hypotheses(const nav::Registration& r,
   return figure_row("Size of the bone", plain(r.size, 3),
                     "as the points say, the model’s is 1; SD " + html_number(r.size_sd, 3)) +
          figure_row(
-             "Margin of the mirror image", at_most(mirror, 1, limits.max_mirror_log_likelihood, 0),
+             "Margin of the mirror image", at_most(mirror, 1, limits.mirror_log_likelihood, 1),
              sides_told_apart(r) ? "how much better it explains the points (log-likelihood ratio)"
                                  : "about as good: whether left and right are swapped could not be "
                                    "checked") +
@@ -49,28 +48,26 @@ std::string rows_of_hypotheses(const nav::Registration& r,
 
 std::string rows_of_best(const RegisteredLevel& level) {
   const nav::Registration& r = level.registration;
-  const nav::PoseSearchRegistrationOptions limits;
+  const nav::RegistrationLimits limits = nav::registration_limits();
   return figure_row("RMSE <small>mm</small>", plain(r.rmse_m * 1e3, 2),
                     "of all points to the surface; a poor indicator of the error at the screws") +
          figure_row("Points on the bone <small>%</small>",
-                    at_least(r.inlier_fraction * 1e2, 0, limits.min_inlier_fraction * 1e2, 0),
+                    at_least(r.inlier_fraction * 1e2, 0, limits.inlier_fraction * 1e2, 0),
                     "the rest lie farther off than the scatter explains and are ignored") +
          figure_row("Scatter <small>mm</small>",
-                    at_most(r.noise_m * 1e3, 2, limits.max_noise_m * 1e3, 1),
+                    at_most(r.noise_m * 1e3, 2, limits.noise_m * 1e3, 1),
                     "standard deviation of the points on the bone about its surface") +
          figure_row("Estimated offset of the tip above the bone <small>mm</small>",
                     plain(r.standoff_m * 1e3, 2), "mean over the strokes; corrected") +
          figure_row("Effective sample size", plain(r.effective_points, 0),
                     "effective points: neighbours share the tracker’s error") +
-         figure_row("Surface stroked <small>%</small>",
-                    at_least(r.coverage_fraction * 1e2, 0, limits.min_coverage_fraction * 1e2, 0),
+         figure_row("Surface stroked <small>%</small>", plain(r.coverage_fraction * 1e2, 0),
                     "of what a pointer reaches from behind") +
-         figure_row("Pointer through bone <small>% of the points</small>",
-                    at_most(r.shaft_collision_fraction * 1e2, 0,
-                            limits.max_shaft_collision_fraction * 1e2, 0),
-                    "where its shaft would have been, were this pose right") +
-         log_likelihood_ratio_row(r, limits.min_log_likelihood_ratio) +
-         rows_of_hypotheses(r, limits);
+         figure_row(
+             "Pointer through bone <small>% of the points</small>",
+             at_most(r.shaft_collision_fraction * 1e2, 0, limits.shaft_collision_fraction * 1e2, 0),
+             "where its shaft would have been, were this pose right") +
+         log_likelihood_ratio_row(r, limits.log_likelihood_ratio) + rows_of_hypotheses(r, limits);
 }
 
 /// `paper` tells the two RMSEs, and judges neither.
@@ -82,10 +79,6 @@ std::string rows_of_paper(const RegisteredLevel& level) {
                     "of the two configurations the one with the smaller RMSE is shown");
 }
 
-JudgedFigure rms_figure(double rms_m, bool judged) {
-  const double limit_m = nav::PoseSearchRegistrationOptions{}.max_predicted_tre_m;
-  return judged ? at_most(rms_m * 1e3, 2, limit_m * 1e3, 1) : plain(rms_m * 1e3, 2);
-}
 JudgedFigure within_99_figure(double within_m) {
   return at_most(within_m * 1e3, 2, nav::PoseSearchRegistrationOptions{}.max_tre_99_m * 1e3, 1);
 }
@@ -99,7 +92,7 @@ std::string rows_of_error(const RegisteredLevel& level) {
   std::string out =
       figure_row(level.screws.empty() ? "Error where screws usually go <small>mm</small>"
                                       : "Error at the worst screw <small>mm</small>",
-                 rms_figure(own_m, true), "root mean square to expect of the registration alone");
+                 plain(own_m * 1e3, 2), "root mean square to expect of the registration alone");
   out += figure_row("99 % of errors below <small>mm</small>",
                     within_99_figure(level.registration.tre_99_m), "likewise");
   if (holds_common(level)) {
@@ -132,10 +125,9 @@ std::string row_of_checks(const RegisteredLevel& level) {
                     "places touched afterwards, which \"accept\" takes into the registration");
 }
 
-std::string place_row(const std::string& name, const PlaceError& e, bool judged) {
-  std::string out = "<tr><th scope=row>" + name + "</th>" +
-                    narrow_judged_cell(rms_figure(e.rms_m, judged)) +
-                    narrow_judged_cell(plain(e.within_95_m * 1e3, 2));
+std::string place_row(const std::string& name, const PlaceError& e) {
+  std::string out = "<tr><th scope=row>" + name + "</th>" + judged_cell(plain(e.rms_m * 1e3, 2)) +
+                    judged_cell(plain(e.within_95_m * 1e3, 2));
   for (const std::size_t axis : {0U, 1U, 2U}) {
     out += "<td>" +
            (e.covariance_m2
@@ -167,25 +159,15 @@ std::string screws_table(const RegisteredLevel& level) {
   if (level.screws.empty()) {
     return "";
   }
-  const bool accepted = level.registration.accepted;
-  const bool judged = is_judged(level.registration) && !holds_common(level);
-  const auto head = [&](const std::string& name, const JudgedFigure& of) {
-    return "<th>" + name + (judged ? " <small>" + limit_text(of) + "</small>" : "") + "</th>";
-  };
   std::string out = "<table class=compact><thead><tr><th>" +
-                    std::string(accepted ? "errors to expect" : "errors, were this pose right") +
-                    " <small>mm</small></th>" + head("RMS", rms_figure(0.0, judged)) +
-                    "<th>95 % below</th>" +
-                    "<th>SD sideways</th><th>SD front to back</th><th>SD along the spine</th></tr>"
+                    std::string(level.registration.accepted ? "errors to expect"
+                                                            : "errors, were this pose right") +
+                    " <small>mm</small></th><th>RMS</th><th>95 % below</th><th>SD "
+                    "sideways</th><th>SD front to back</th><th>SD along the spine</th></tr>"
                     "</thead><tbody>";
   for (const ScrewErrors& e : errors_at_screws(level)) {
     const std::string side = name_of(e.side);
-    // A small error of a refused pose must not look like good news.
-    const auto row = [&](const char* end, const PlaceError& error) {
-      const bool tells = accepted || !rms_figure(error.rms_m, judged).keeps_limit();
-      return place_row(side + end, error, judged && tells);
-    };
-    out += row(" entry", e.entry) + row(" target", e.target);
+    out += place_row(side + " entry", e.entry) + place_row(side + " target", e.target);
   }
   return out + "</tbody></table>";
 }

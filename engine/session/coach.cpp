@@ -36,14 +36,14 @@ Coaching coaching_from(const nav::Registration& registration) {
   coaching.registration_only = !(common_m > 0.0);
   coaching.stroke_next = registration.stroke_next;
   if (coaching.unique) {
-    coaching.progress = std::min(1.0, limits.max_predicted_tre_m / coaching.expected_m);
+    coaching.progress = std::min(1.0, limits.max_tre_99_m / registration.tre_99_m);
     if (registration.stroke_next) {
       coaching.stroke_at = registration.world_from_vertebra * registration.stroke_next_at;
     }
   }
   // A small expected error does not help if there is another reason against the registration.
-  if (coaching.unique && !coaching.enough &&
-      registration.predicted_tre_m <= limits.max_predicted_tre_m && !registration.reasons.empty()) {
+  if (coaching.unique && !coaching.enough && registration.tre_99_m <= limits.max_tre_99_m &&
+      !registration.reasons.empty()) {
     coaching.against = registration.reasons.front();
   }
   return coaching;
@@ -141,7 +141,7 @@ void Coach::tell_ended() {
 
 void Coach::run() {
   // Whether another level fits better is checked for a real registration, not on partial strokes.
-  const auto result = registrar_({*model_, points_, screws_, {}, common_, {}, {}, times_});
+  const auto result = registrar_({*model_, points_, screws_, {}, common_, {}, times_});
   answer_ = result ? std::optional(coaching_from(*result)) : std::nullopt;
 }
 

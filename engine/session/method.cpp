@@ -48,7 +48,6 @@ nav::PoseSearchRegistrationOptions options_of(const RegistrationRequest& request
   options.common = request.common;
   options.tip_radius_m = request.tip_radius_m;
   options.least_model_sd_m = request.least_model_sd_m;
-  options.point_sd_m.assign(request.point_sd_m.begin(), request.point_sd_m.end());
   options.shafts.assign(request.shafts.begin(), request.shafts.end());
   for (const Timestamp time : request.times) {
     options.times_s.push_back(seconds(time - request.times.front()));

@@ -20,8 +20,6 @@ struct RegistrationRequest {
   std::span<const nav::ScrewPlan> screws;         ///< where the pose must be precise; may be empty
   std::span<const NeighbouringLevel> neighbours;
   nav::CommonErrors common{};  ///< as far as known
-  /// Tracking precision of each point (RMS along an axis); empty if unknown.
-  std::span<const double> point_sd_m{};
   /// The pointer's shaft at each point, from the tip back, unit vectors; empty if unknown.
   std::span<const Vec3> shafts{};
   std::span<const Timestamp> times{};  ///< of each point; empty if unknown

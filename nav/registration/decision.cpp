@@ -227,6 +227,19 @@ std::vector<PlaceToPress> places_to_press(const Posterior& posterior, const Bone
   return out;
 }
 
+RegistrationLimits limits_of(const Question& question) {
+  constexpr double kOutlierPower = 18.0;  // 1 of 20 points on average, 3 of 10 once in 600
+  // The log ratio at which an explanation with these odds is as probable as it may be.
+  const auto takes_too_much = [&](double odds) {
+    return std::log(question.may_be_wrong / (1.0 - question.may_be_wrong) / odds);
+  };
+  return {scatter_exceeded_m(question.prior, question.least_predicted),
+          std::pow(question.least_predicted, 1.0 / kOutlierPower),
+          // As if the share were drawn from an exponential density with the prior's mean.
+          -question.prior.shaft_in_bone * std::log(question.least_predicted), -takes_too_much(1.0),
+          takes_too_much(question.prior.mirror_odds)};
+}
+
 Result<Decision> decided(const VertebraModel& model, const Observations& observations,
                          const Question& question) {
   constexpr std::size_t kFewestPoints = 100;
@@ -396,16 +409,12 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
     e.probability /= sum;
     out.wrong += e.probability * e.wrong;
   }
-  out.most_scatter_m = scatter_exceeded_m(prior, question.least_predicted);
   out.inlier_fraction = out.answer.hand.inliers / static_cast<double>(tips.size());
-  constexpr double kOutlierPower = 18.0;  // 1 of 20 points on average, 3 of 10 once in 600
-  out.least_inlier_fraction = std::pow(question.least_predicted, 1.0 / kOutlierPower);
-  // As if the share were drawn from an exponential density with the prior's mean.
-  out.most_shaft_collisions = -prior.shaft_in_bone * std::log(question.least_predicted);
+  const RegistrationLimits limits = limits_of(question);
   out.accepted = out.wrong <= question.may_be_wrong &&
-                 out.shaft_collision_fraction <= out.most_shaft_collisions &&
-                 out.answer.hand.spread_m <= out.most_scatter_m &&
-                 out.inlier_fraction >= out.least_inlier_fraction;
+                 out.shaft_collision_fraction <= limits.shaft_collision_fraction &&
+                 out.answer.hand.spread_m <= limits.noise_m &&
+                 out.inlier_fraction >= limits.inlier_fraction;
   double squares_m2 = 0.0;
   for (const double e : errors) {
     squares_m2 += e * e / static_cast<double>(errors.size());

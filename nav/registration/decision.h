@@ -23,6 +23,8 @@ struct Question {
   double least_predicted = 1e-3;  ///< of data like these, by the prior
 };
 
+[[nodiscard]] RegistrationLimits limits_of(const Question& question);
+
 /// One explanation of the points, and its probability among all that were tried.
 struct Explanation {
   enum class Kind : std::uint8_t { kAnswer, kOtherPose, kLevel, kMirror, kSize };
@@ -38,11 +40,8 @@ struct Decision {
   Posterior answer;
   std::vector<Explanation> explanations;  ///< the answer first
   double wrong = 1.0;                     ///< probability that the answer is wrong
-  double most_scatter_m = 0.0;  ///< of the points' heights, that the prior predicts often enough
   double inlier_fraction = 0.0;
-  double least_inlier_fraction = 0.0;  ///< likewise
   double shaft_collision_fraction = 0.0;
-  double most_shaft_collisions = 0.0;  ///< that the prior predicts often enough
   bool accepted = false;
   /// Of the error at the worst target, under the answer: root mean square, and what 95 and 99 of
   /// 100 errors stay below.

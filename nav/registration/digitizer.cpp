@@ -135,10 +135,6 @@ std::vector<Point<World>> Digitizer::saved_points() const {
   return of_saved(regions_, &Sample::tip_in_world);
 }
 
-std::vector<double> Digitizer::saved_point_sds_m() const {
-  return of_saved(regions_, &Sample::tip_sd_m);
-}
-
 std::vector<Vec3> Digitizer::saved_shafts() const {
   return of_saved(regions_, &Sample::shaft_in_world);
 }

@@ -52,8 +52,6 @@ class Digitizer {
   [[nodiscard]] bool recording() const { return recording_; }
   [[nodiscard]] std::span<const Region> regions() const { return regions_; }
   [[nodiscard]] std::vector<Point<World>> saved_points() const;
-  /// The SDs of these points, in their order.
-  [[nodiscard]] std::vector<double> saved_point_sds_m() const;
   [[nodiscard]] std::vector<Vec3> saved_shafts() const;
   [[nodiscard]] std::vector<Timestamp> saved_times() const;
   [[nodiscard]] std::size_t saved_count() const;

@@ -50,10 +50,8 @@ struct RefusalReason {
   enum class Kind : std::uint8_t {
     kNoise,               ///< m, SD of the points about the surface
     kInliers,             ///< fraction of the points
-    kCoverage,            ///< fraction of the reachable surface
     kShaftCollision,      ///< fraction of the points
     kLogLikelihoodRatio,  ///< against the runner-up
-    kTreAtScrews,         ///< m, expected at the worst of the screws
     kTre99AtScrews,       ///< m, below which 99 of 100 errors lie at the worst of the screws
     kFitsOtherLevel,      ///< no number; the label says which level
     kSoftTissue,          ///< m, SD of the tip's height over the bone; `scrape` says where

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <unordered_map>
-
-#include "nav/registration/cells.h"
 
 namespace orthonav::nav::posterior {
 namespace {
@@ -21,6 +21,25 @@ constexpr double kShortest_m = 0.004;
 constexpr double kSmallestCell_m = 0.005;
 constexpr double kLargestCell_m = 0.1;
 constexpr double kCellGrows = 1.25;
+
+/// A cell of a cubic grid over space, by its number along each axis.
+using GridCell = std::array<std::int64_t, 3>;
+
+/// The cell that holds a place; cells are centred on multiples of their size.
+GridCell cell_of(Vec3 p, double size_m) {
+  return {std::llround(p.x / size_m), std::llround(p.y / size_m), std::llround(p.z / size_m)};
+}
+
+struct HashOfCell {
+  std::size_t operator()(const GridCell& cell) const {
+    std::uint64_t hash = 0;
+    for (const std::int64_t i : cell) {
+      hash = (hash ^ static_cast<std::uint64_t>(i)) * 0x9E3779B97F4A7C15ULL;
+      hash ^= hash >> 29U;
+    }
+    return static_cast<std::size_t>(hash);
+  }
+};
 
 /// Whether each point lies apart from all earlier ones.
 std::vector<bool> different(std::span<const Point<World>> points) {

@@ -19,6 +19,10 @@ constexpr double kFarFromBestInField = 3.0;
 /// Squared distances are truncated at this many SDs of the noise, but not below that distance.
 constexpr double kTruncateSd = 3.0;
 constexpr double kTruncateLeast_m = 0.0009;
+/// Points that scatter by more than this, more than tracking explains, were stroked with a light
+/// hand or over soft tissue. Their mean height above the bone is then fitted as well, in the bone
+/// never.
+constexpr double kLooseHand_m = 0.0005;
 constexpr double kHighest_m = 0.004;
 
 SurfaceFitOptions quick_fit(double tip_radius_m) {
@@ -43,7 +47,7 @@ void refit_with_standoff(const VertebraModel& model, const Cloud& cloud, Surface
   options.with_standoff = true;
   for (Candidate& c : candidates) {
     if (auto fit = fit_to_surface(model.reachable_surface(), cloud.few_m, c.fit.pose, options);
-        fit && is_credible_standoff(fit->standoff_m)) {
+        fit && fit->standoff_m > 0.0 && fit->standoff_m < kHighest_m) {
       c.fit = std::move(*fit);
     }
   }
@@ -107,24 +111,16 @@ double apart_m(const Transform<World, Vertebra>& a, const Transform<World, Verte
   return most;
 }
 
-std::vector<Vec3> places_near(const VertebraModel& model, std::span<const Vec3> points_m,
-                              const CentredPose& pose) {
+std::optional<SurfaceFit> fit_to_bone(const VertebraModel& model, std::span<const Vec3> points_m,
+                                      const CentredPose& start, SurfaceFitOptions options) {
   std::vector<Vec3> near_m;
   near_m.reserve(points_m.size());
   for (const Vec3& p : points_m) {
-    near_m.push_back(model.reachable_grid().nearest(pose.rotation * p + pose.centre_m));
+    near_m.push_back(model.reachable_grid().nearest(start.rotation * p + start.centre_m));
   }
-  return near_m;
-}
-
-std::optional<SurfaceFit> fit_to_bone(const VertebraModel& model, std::span<const Vec3> points_m,
-                                      const CentredPose& start, SurfaceFitOptions options) {
-  const std::vector<Vec3> near_m = places_near(model, points_m, start);
   options.near_m = near_m;
   return fit_to_surface(model.reachable_surface(), points_m, start, options);
 }
-
-bool is_credible_standoff(double standoff_m) { return standoff_m > 0.0 && standoff_m < kHighest_m; }
 
 PoseCandidates find_candidates(const VertebraModel& model, const Cloud& cloud,
                                std::span<const Point<Vertebra>> targets, double tip_radius_m) {

@@ -11,9 +11,6 @@ namespace orthonav::nav {
 
 /// Two poses that put every target within this distance count as the same.
 inline constexpr double kSameAtTargets_m = 0.002;
-/// Points that scatter by more than this, more than tracking explains, were stroked with a light
-/// hand or over soft tissue. Their mean height above the bone is then fitted as well.
-inline constexpr double kLooseHand_m = 0.0005;
 
 /// Digitized points for the search.
 struct Cloud {
@@ -28,20 +25,11 @@ struct Cloud {
                              const Transform<World, Vertebra>& b,
                              std::span<const Point<Vertebra>> targets);
 
-/// A place on the reachable surface near each point at a pose, where the search for the nearest one
-/// starts.
-[[nodiscard]] std::vector<Vec3> places_near(const VertebraModel& model,
-                                            std::span<const Vec3> points_m,
-                                            const CentredPose& pose);
-
 /// Fits points to the reachable surface; finds `SurfaceFitOptions::near_m` itself.
 [[nodiscard]] std::optional<SurfaceFit> fit_to_bone(const VertebraModel& model,
                                                     std::span<const Vec3> points_m,
                                                     const CentredPose& start,
                                                     SurfaceFitOptions options);
-
-/// Whether a mean height of the tip above the bone is plausible: a tip can't be inside the bone.
-[[nodiscard]] bool is_credible_standoff(double standoff_m);
 
 struct Candidate {
   SurfaceFit fit;

@@ -721,11 +721,12 @@ std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, con
     // The size has a normal prior: integrated, it takes its part of the squares.
     const double precision = over.noise_m2 / (prior.size_sd * prior.size_sd);
     const double information = left(1, 1) + precision;
-    const OverStandoff sized =
-        over_standoff({left(2, 2) - left(1, 2) * left(1, 2) / information + inside_m2,
-                       left(0, 2) - left(1, 2) * left(0, 1) / information,
-                       left(0, 0) - left(0, 1) * left(0, 1) / information},
-                      freedom, log_prior);
+    const OverStandoff sized = over_standoff(
+        {left(2, 2) - left(1, 2) * left(1, 2) / information + inside_m2,
+         left(0, 2) - left(1, 2) * left(0, 1) / information,
+         // Over a flat part a size and a standoff are the same.
+         std::max(left(0, 0) - left(0, 1) * left(0, 1) / information, 1e-9 * left(0, 0))},
+        freedom, log_prior);
     out.log_size = sized.log_integral + fixed - log_pose + 0.5 * std::log(precision / information);
     const double by_standoff = left(0, 1) / information;
     out.size = left(1, 2) / information - sized.mean_m * by_standoff;
@@ -841,6 +842,8 @@ std::vector<Node> scattered(const Node& size) {
           out.back()[kLength] = 3;
         }
       }
+      out.push_back(even);
+      out.back()[kModel] = 4;  // where it is known to be off by more than the noise
       if (size[kByArea] > 1) {
         out.push_back(even);
         out.back()[kStroke] = 2;

@@ -8,7 +8,6 @@
 
 #include "nav/registration/errors_at_targets.h"
 #include "nav/registration/press_fit.h"
-#include "nav/registration/verdict.h"
 
 namespace orthonav::nav {
 namespace {
@@ -21,11 +20,10 @@ constexpr double kUsualSd_m = 0.0002;
 void judge(const PoseSearchRegistrationOptions& options, Registration& r) {
   using Kind = RefusalReason::Kind;
   std::erase_if(r.reasons, [](const RefusalReason& reason) {
-    return reason.kind == Kind::kTreAtScrews || reason.kind == Kind::kTre99AtScrews ||
-           reason.kind == Kind::kSoftTissue;
+    return reason.kind == Kind::kTre99AtScrews || reason.kind == Kind::kSoftTissue;
   });
-  if (const auto reason = error_at_screws(r, options)) {
-    r.reasons.push_back(*reason);
+  if (!(r.tre_99_m <= options.max_tre_99_m)) {
+    r.reasons.push_back({Kind::kTre99AtScrews, r.tre_99_m, options.max_tre_99_m, r.weakest});
   }
   r.accepted = r.reasons.empty();
   r.provisional = is_provisional(r);

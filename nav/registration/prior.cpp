@@ -53,8 +53,11 @@ double scatter_exceeded_m(const Prior& prior, double probability) {
   for (int k = 0; k < kDraws; ++k) {
     const double scale_m = prior.bare_m * std::pow(prior.tissue_m / prior.bare_m, random.uniform());
     const double s_m = std::abs(random.normal(0.0, scale_m));
+    // What is nowhere less than nothing varies by no more than its mean, about.
     const auto uneven = [&] {
-      return prior.unevenness * std::exp(random.normal(0.0, prior.unevenness_log_sd)) * s_m;
+      return std::min(1.0,
+                      prior.unevenness * std::exp(random.normal(0.0, prior.unevenness_log_sd))) *
+             s_m;
     };
     const double tissue_m = uneven();
     const double stroke_m = random.uniform() < prior.uneven_hand_share ? uneven() : 0.0;

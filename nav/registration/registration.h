@@ -94,35 +94,34 @@ struct PoseSearchRegistrationOptions {
   /// Where the pose must be certain: the plan's entries and targets. If empty, places where screws
   /// usually go are used, or the ends of another bone than a vertebra.
   std::vector<Point<Vertebra>> targets;
-  /// Root mean square error to expect at the worst of them; above: refused.
-  double max_predicted_tre_m = 0.0015;
-  /// The error that 99 of 100 stay below, at the worst of them; above: refused.
+  /// A larger error at any of them makes the pose wrong, and so does a bone that is off the model's
+  /// size by more than this.
   double max_tre_99_m = 0.002;
-  /// By how much another pose must explain the points worse (log-likelihood ratio).
-  double min_log_likelihood_ratio = 12.0;
-  double max_noise_m = 0.0016;          ///< SD of the points about the surface
-  double min_inlier_fraction = 0.7;     ///< of the points that lie on the surface within the noise
-  double min_coverage_fraction = 0.10;  ///< of the reachable surface within 5 mm of a point
-  double tip_radius_m = 0.0;            ///< of the ball at the pointer's end
+  double max_size_off = 0.015;
+  double tip_radius_m = 0.0;  ///< of the ball at the pointer's end
   /// SD over the bone by which the model is known to differ from it, at least: the heights of the
   /// strokes may show less by chance.
   double least_model_sd_m = 0.0;
-  /// How exactly each point was tracked (SD along an axis): better known points count more. Empty:
-  /// all equal.
-  std::vector<double> point_sd_m;
-  /// When each point was measured, ascending. Empty: not known. Only the posterior uses it.
+  /// When each point was measured, ascending. Empty: not known.
   std::vector<double> times_s;
   /// From the tip back along the pointer's shaft, unit vectors in World: there can be no bone where
   /// the shaft was. Empty: not known.
   std::vector<Vec3> shafts;
-  double max_shaft_collision_fraction = 0.15;  ///< of the points whose shaft would go through bone
   std::vector<NeighbourLevel> neighbours;
   CommonErrors common;
-  /// By how much (natural logarithm) the model's mirror image may explain the points better; and
-  /// how far the model's size may be off.
-  double max_mirror_log_likelihood = 4.0;
-  double max_size_off = 0.015;
 };
+
+/// What a registration is held against beside the probability that it is wrong: what the prior
+/// predicts less than once in a thousand, and the log-likelihood ratios from which another pose, or
+/// the mirror image, takes 1 % of the probability.
+struct RegistrationLimits {
+  double noise_m = 0.0;                   ///< most
+  double inlier_fraction = 0.0;           ///< least
+  double shaft_collision_fraction = 0.0;  ///< most
+  double log_likelihood_ratio = 0.0;      ///< least
+  double mirror_log_likelihood = 0.0;     ///< most
+};
+[[nodiscard]] RegistrationLimits registration_limits();
 
 /// The result of a registration. If `accepted` is false, `reasons` says why, and it must not be
 /// used for guidance.
@@ -174,9 +173,13 @@ struct Registration {
                             ///< better
 };
 
-/// Searches all poses and fits the best ones exactly and robustly (docs/registration.md). Accepted
-/// only if nothing else explains the points, the error to expect at every target is small, and no
-/// neighbouring level fits as well. `points_in_world` must be in the order of time.
+/// Whether only the error at the screws speaks against it, and is small enough that pressing places
+/// on the bone can reduce it.
+[[nodiscard]] bool is_provisional(const Registration& registration);
+
+/// Searches all poses, and weighs them against each other and against other explanations of the
+/// points by one posterior (docs/registration.md). Accepted only if the pose is wrong with a
+/// probability of at most 1 %. `points_in_world` must be in the order of time.
 Result<Registration> register_by_pose_search(const VertebraModel& model,
                                              std::span<const Point<World>> points_in_world,
                                              const PoseSearchRegistrationOptions& options = {});
@@ -185,7 +188,5 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
 /// line.
 Status validate_points(std::span<const Point<World>> points, std::size_t min_points,
                        Bone bone = Bone::kVertebra);
-/// Refuses unusable standard deviations of the points; an empty list is fine.
-Status check_point_sds(std::span<const double> sd_m, std::size_t points);
 
 }  // namespace orthonav::nav

@@ -21,8 +21,6 @@ struct SurfaceFitOptions {
   /// For each point, any place on the surface, which limits the first search. Only saves time.
   /// Empty: none known.
   std::span<const Vec3> near_m{};
-  /// SD of each point, as far as it is known; empty: all equal.
-  std::span<const double> point_sd_m{};
   /// Limits of the assumed SD of the residuals.
   double least_noise_m = 0.00015;
   double most_noise_m = 0.002;
@@ -34,12 +32,7 @@ struct FittedPoint {
   Vec3 gradient;            ///< of the residual by the point's position
   Vec3 nearest_m;           ///< on the surface
   double residual_m = 0.0;  ///< outside the surface positive
-  double weight = 0.0;      ///< in [0, 1]: robust weight times the point's precision
-  double precision = 1.0;   ///< of the point, relative to the mean of the points
-  /// Its weight in a fit that is not robust: zero beyond 3 SDs.
-  [[nodiscard]] double inlier_precision() const {
-    return weight > 0.1 * precision ? precision : 0.0;
-  }
+  double weight = 0.0;      ///< robust, in [0, 1]
 };
 
 struct SurfaceFit {

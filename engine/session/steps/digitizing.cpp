@@ -22,7 +22,7 @@ void Registering::watch(WorkWatch* watch) {
 
 RegistrationJob Registering::now(RegistrationJob job) const {
   job.found = registrar_({*job.level.model, job.points, job.level.screws, job.level.neighbours,
-                          job.common, job.sds_m, job.shafts, job.times});
+                          job.common, job.shafts, job.times});
   return job;
 }
 
@@ -198,7 +198,6 @@ std::optional<Event> Digitizing::register_level(SessionState& work, Timestamp ti
       std::hypot(common.map_m, work.options.drift_since_m(time - level.first_press.value_or(time)));
   RegistrationJob job{level.plan,
                       digitizer.saved_points(),
-                      digitizer.saved_point_sds_m(),
                       digitizer.saved_shafts(),
                       digitizer.saved_times(),
                       common,

@@ -21,7 +21,6 @@ namespace orthonav::engine {
 struct RegistrationJob {
   OperatedLevel level;
   std::vector<Point<World>> points;
-  std::vector<double> sds_m;
   std::vector<Vec3> shafts;
   std::vector<Timestamp> times;
   nav::CommonErrors common;

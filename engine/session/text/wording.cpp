@@ -42,14 +42,10 @@ LimitWords words_about(nav::RefusalReason::Kind kind) {
       return {translatable("the points scatter %.1f mm about the surface, limit %.1f mm"), 1e3};
     case kInliers:
       return {translatable("only %.0f %% of the points lie on the model, at least %.0f %%"), 100.0};
-    case kCoverage:
-      return {translatable("only %.0f %% of the surface was stroked, at least %.0f %%"), 100.0};
     case kShaftCollision:
       return {kThroughBone, 100.0};
     case kLogLikelihoodRatio:
-      return {translatable("another pose fits nearly as well (margin %.1f, at least %.0f)"), 1.0};
-    case kTreAtScrews:
-      return {translatable("error expected at the screws %.1f mm, limit %.1f mm"), 1e3};
+      return {translatable("another pose fits nearly as well (margin %.1f, at least %.1f)"), 1.0};
     case kTre99AtScrews:
       return {k99Percent, 1e3};
     case kTre99AtEnds:

@@ -13,7 +13,8 @@ inline nav::Registration promising() {
   r.log_likelihood_ratio = 30.0;
   r.predicted_tre_m = 0.0024;
   r.stroke_next = kLeftLamina;
-  r.reasons = {{nav::RefusalReason::Kind::kTreAtScrews, 0.0024, 0.0015, {}, {}}};
+  r.tre_99_m = 0.0032;  // of which the limit is 5/8
+  r.reasons = {{nav::RefusalReason::Kind::kTre99AtScrews, r.tre_99_m, 0.002, {}, {}}};
   return r;
 }
 

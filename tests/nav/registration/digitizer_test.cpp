@@ -48,11 +48,11 @@ TEST(Digitizer, KnowsHowExactlyEachTipWasTracked) {
   EXPECT_TRUE(digitizer.add(rotating, kTip));
   EXPECT_TRUE(digitizer.add(pose(99), kTip));
   digitizer.save();
-  const auto sds_m = digitizer.saved_point_sds_m();
-  ASSERT_EQ(sds_m.size(), 3U);
-  EXPECT_NEAR(sds_m[0], 1e-4, 1e-12);
-  EXPECT_NEAR(sds_m[1], 0.0003 * std::sqrt(2.0 / 3.0), 1e-12);
-  EXPECT_EQ(sds_m[2], 0.0);
+  const std::vector<Sample>& samples = digitizer.regions()[0].samples;
+  ASSERT_EQ(samples.size(), 3U);
+  EXPECT_NEAR(samples[0].tip_sd_m, 1e-4, 1e-12);
+  EXPECT_NEAR(samples[1].tip_sd_m, 0.0003 * std::sqrt(2.0 / 3.0), 1e-12);
+  EXPECT_EQ(samples[2].tip_sd_m, 0.0);
   const auto shafts = digitizer.saved_shafts();
   ASSERT_EQ(shafts.size(), 3U);
   EXPECT_EQ(shafts[0], (Vec3{0.0, 1.0, 0.0}));

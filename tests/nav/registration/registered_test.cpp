@@ -1,5 +1,3 @@
-#include "nav/registration/registered.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "engine/phantom/phantom.h"
 #include "nav/registration/prior.h"
+#include "nav/registration/registration.h"
 #include "tests/support/digitized_strokes.h"
 #include "tests/support/stroke_truths.h"
 
@@ -49,7 +48,7 @@ TEST(PosteriorRegistration, CleanStrokesTellEverythingThatASessionReads) {
   o.common.tip_m = 0.0005;
   o.shafts.assign(strokes.samples.size(),
                   strokes.world_from_vertebra.rotation() * Vec3{0.0, 1.0, 0.0});
-  const Registration r = register_by_posterior(*l4().model, strokes.tips(), o).value();
+  const Registration r = register_by_pose_search(*l4().model, strokes.tips(), o).value();
   EXPECT_TRUE(r.accepted);
   EXPECT_TRUE(r.reasons.empty());
   EXPECT_FALSE(r.provisional);
@@ -91,7 +90,7 @@ TEST(PosteriorRegistration, TissueIsSeenWhereItLiesAndAsksForPresses) {
   truths.mean_tissue_m = 0.003;
   test::apply_truths(truths, l4().from.mesh, 11, strokes);
   const auto o = options_of(l4());
-  const Registration r = register_by_posterior(*l4().model, strokes.tips(), o).value();
+  const Registration r = register_by_pose_search(*l4().model, strokes.tips(), o).value();
   EXPECT_FALSE(r.accepted);
   EXPECT_TRUE(r.provisional);
   EXPECT_TRUE(names(r, Kind::kTre99AtScrews));
@@ -128,7 +127,7 @@ TEST(PosteriorRegistration, StrokesOfAnotherLevelAreRefusedByItsName) {
   const auto foreign = test::digitize_strokes(l2.from.mesh, test::StrokeVariant::kFull, 1).value();
   PoseSearchRegistrationOptions o = options_of(l4());
   o.neighbours.push_back({"L2", l2.model.get()});
-  const Registration r = register_by_posterior(*l4().model, foreign.tips(), o).value();
+  const Registration r = register_by_pose_search(*l4().model, foreign.tips(), o).value();
   EXPECT_FALSE(r.accepted);
   EXPECT_FALSE(r.provisional);
   EXPECT_EQ(r.fits_better, "L2");
@@ -148,7 +147,7 @@ TEST(PosteriorRegistration, StrokesThatSlideAreRefused) {
     }
   }
   ASSERT_GT(tips.size(), 100U);
-  const Registration r = register_by_posterior(*l4().model, tips, options_of(l4())).value();
+  const Registration r = register_by_pose_search(*l4().model, tips, options_of(l4())).value();
   EXPECT_FALSE(r.accepted);
   EXPECT_TRUE(names(r, Kind::kLogLikelihoodRatio) || names(r, Kind::kTre99AtScrews));
 }
@@ -160,7 +159,7 @@ TEST(PosteriorRegistration, ShaftsThatWouldGoThroughBoneSpeakAgainstAPose) {
   // As if the pointer had come from the front.
   o.shafts.assign(strokes.samples.size(),
                   strokes.world_from_vertebra.rotation() * Vec3{0.0, -1.0, 0.0});
-  const Registration r = register_by_posterior(*l4().model, strokes.tips(), o).value();
+  const Registration r = register_by_pose_search(*l4().model, strokes.tips(), o).value();
   double off_m = 0.0;
   for (const Point<Vertebra>& target : o.targets) {
     off_m = std::max(
@@ -177,12 +176,12 @@ TEST(PosteriorRegistration, ShaftsSpeakOfTheMirrorImageAsOfTheBone) {
       test::digitize_strokes(l4().from.mesh, test::StrokeVariant::kFull, 2).value();
   PoseSearchRegistrationOptions o = options_of(l4());
   const double without =
-      register_by_posterior(*l4().model, strokes.tips(), o).value().mirror_log_likelihood;
+      register_by_pose_search(*l4().model, strokes.tips(), o).value().mirror_log_likelihood;
   for (std::size_t i = 0; i < strokes.samples.size(); ++i) {
     o.shafts.push_back(strokes.world_from_vertebra.rotation() *
                        Vec3{0.0, i % 25 == 0 ? -1.0 : 1.0, 0.0});
   }
-  const Registration r = register_by_posterior(*l4().model, strokes.tips(), o).value();
+  const Registration r = register_by_pose_search(*l4().model, strokes.tips(), o).value();
   ASSERT_GT(r.shaft_collision_fraction, 0.03);
   EXPECT_LT(r.mirror_log_likelihood, without + 8.0) << "counted for one of them it would be 22";
 }
@@ -191,9 +190,9 @@ TEST(PosteriorRegistration, AModelKnownToBeOffLeavesMoreOpen) {
   const auto strokes =
       test::digitize_strokes(l4().from.mesh, test::StrokeVariant::kSparse, 2).value();
   PoseSearchRegistrationOptions o = options_of(l4());
-  const auto exact = register_by_posterior(*l4().model, strokes.tips(), o).value();
+  const auto exact = register_by_pose_search(*l4().model, strokes.tips(), o).value();
   o.least_model_sd_m = 0.0005;
-  const auto off = register_by_posterior(*l4().model, strokes.tips(), o).value();
+  const auto off = register_by_pose_search(*l4().model, strokes.tips(), o).value();
   EXPECT_GT(off.predicted_tre_m, 1.3 * exact.predicted_tre_m);
 }
 

@@ -24,7 +24,7 @@ TEST_F(RegisterBest, AcceptsFullStrokesAndSaysHowSureItIs) {
   EXPECT_THAT(r->reasons, IsEmpty());
   EXPECT_LT(error_m(l4(), r->world_from_vertebra, full_.world_from_vertebra), 0.0005);
   EXPECT_EQ(r->points, full_.samples.size());
-  EXPECT_GT(r->log_likelihood_ratio, PoseSearchRegistrationOptions().min_log_likelihood_ratio);
+  EXPECT_GT(r->log_likelihood_ratio, registration_limits().log_likelihood_ratio);
   EXPECT_GT(r->inlier_fraction, 0.9);
   EXPECT_GT(r->coverage_fraction, 0.3);
   EXPECT_THAT(r->fits_better, IsEmpty());

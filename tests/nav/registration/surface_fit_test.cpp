@@ -56,47 +56,6 @@ TEST_F(SurfaceFitTest, IsExactOnPointsWithoutNoise) {
   EXPECT_LT(worst_m(places_, {}), 1e-5);
 }
 
-TEST_F(SurfaceFitTest, TrustsPointsByHowExactlyTheyWereTracked) {
-  // A third of the points comes from a tool that was hard to see.
-  constexpr double kGood_m = 0.0002;
-  constexpr double kBad_m = 0.0015;
-  Random random(31);
-  double with_m2 = 0.0;
-  double without_m2 = 0.0;
-  for (int trial = 0; trial < 12; ++trial) {
-    std::vector<Vec3> noisy = places_;
-    std::vector<double> sd_m;
-    for (std::size_t i = 0; i < noisy.size(); ++i) {
-      sd_m.push_back(i % 3 == 0 ? kBad_m : kGood_m);
-      noisy[i] += sd_m[i] * Vec3{random.normal(), random.normal(), random.normal()};
-    }
-    const CentredPoints cloud = test::centred_somewhere(noisy, random);
-    SurfaceFitOptions options = to_the_end();
-    const auto alike = fit_to_surface(surface_, cloud.points_m, cloud.truth, options);
-    options.point_sd_m = sd_m;
-    const auto told = fit_to_surface(surface_, cloud.points_m, cloud.truth, options);
-    ASSERT_TRUE(alike && told);
-    with_m2 += std::pow(apart_m(told->pose, cloud.truth), 2);
-    without_m2 += std::pow(apart_m(alike->pose, cloud.truth), 2);
-  }
-  EXPECT_LT(with_m2, 0.8 * without_m2);
-  // With equal SDs for all it does the same as without SDs.
-  Random again(32);
-  const CentredPoints cloud = test::centred_somewhere(places_, again);
-  const CentredPose start =
-      test::moved(cloud.truth, kStartTranslation_m, kStartRotation_rad, again);
-  SurfaceFitOptions options;
-  const auto untold = fit_to_surface(surface_, cloud.points_m, start, options);
-  const std::vector<double> same(places_.size(), 1e-5);
-  options.point_sd_m = same;
-  const auto told = fit_to_surface(surface_, cloud.points_m, start, options);
-  ASSERT_TRUE(untold && told);
-  EXPECT_LT(apart_m(untold->pose, told->pose), kExact_m);
-  const std::vector<double> too_few(3, 1e-5);
-  options.point_sd_m = too_few;
-  EXPECT_FALSE(fit_to_surface(surface_, cloud.points_m, start, options).has_value());
-}
-
 TEST_F(SurfaceFitTest, EndsAtTheSamePoseFromWhereverItStarts) {
   Random random(9);
   std::vector<Vec3> noisy = places_;

@@ -99,7 +99,6 @@ int run_register(const RegisterArguments& arguments, const RegisterOutputs& outp
                                           arguments.common.in_metres(),
                                           {},
                                           {},
-                                          {},
                                           tip_radius_m,
                                           model_sd_mm(arguments) * 1e-3});
   if (!registration) {
@@ -130,9 +129,8 @@ constexpr const char* kRegisterFooter =
     "Without what all points share (--tip-sd-mm and the others), errors to expect are those of "
     "the\n"
     "registration alone. The limits are about these.\n"
-    "With --any-bone nothing is demanded of coverage, scatter, size or mirror image, only that no\n"
-    "other pose fits as well; 99 % of errors must be below 2 mm at both ends of the bone along\n"
-    "each of its principal axes.\n"
+    "With --any-bone 99 % of errors must be below 2 mm at both ends of the bone along each of its\n"
+    "principal axes.\n"
     "With --level the strokes are tried on every other level of the case too, and refused where\n"
     "they fit one of them as well; with --model the level can't be checked.";
 

@@ -1,5 +1,3 @@
-#include "nav/registration/registered.h"
-
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Dense>
@@ -8,14 +6,25 @@
 #include <string>
 #include <vector>
 
+#include "base/reason.h"
+#include "base/translation.h"
+#include "nav/geometry/principal_axes.h"
 #include "nav/registration/decision.h"
 #include "nav/registration/degeneracy.h"
 #include "nav/registration/errors_at_targets.h"
 #include "nav/registration/pose_candidates.h"
-#include "nav/registration/verdict.h"
 
-namespace orthonav::nav::posterior {
+namespace orthonav::nav {
 namespace {
+
+using namespace posterior;
+
+/// Strokes narrower than this (standard deviation) along their second axis are a line.
+constexpr double kNarrowest_m = 0.001;
+/// Points of one vertebra, and of any other bone, are not farther than this (standard deviation)
+/// from their centre.
+constexpr double kWidest_m = 0.1;
+constexpr double kWidestOfAnyBone_m = 0.3;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
@@ -72,26 +81,24 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
   constexpr double kGoodPart = 0.25;
   // A smaller field can't be distinguished from a segmentation's own error.
   constexpr double kUneven_m = 0.0003;
+  const RegistrationLimits limits = limits_of(question);
   std::vector<RefusalReason> reasons;
   if (d.accepted) {
     return reasons;
   }
-  if (!(d.answer.hand.spread_m <= d.most_scatter_m)) {
-    reasons.push_back({Kind::kNoise, d.answer.hand.spread_m, d.most_scatter_m});
+  if (!(d.answer.hand.spread_m <= limits.noise_m)) {
+    reasons.push_back({Kind::kNoise, d.answer.hand.spread_m, limits.noise_m});
   }
-  if (!(d.inlier_fraction >= d.least_inlier_fraction)) {
-    reasons.push_back({Kind::kInliers, d.inlier_fraction, d.least_inlier_fraction});
+  if (!(d.inlier_fraction >= limits.inlier_fraction)) {
+    reasons.push_back({Kind::kInliers, d.inlier_fraction, limits.inlier_fraction});
   }
-  if (!(d.shaft_collision_fraction <= d.most_shaft_collisions)) {
-    reasons.push_back({Kind::kShaftCollision, d.shaft_collision_fraction, d.most_shaft_collisions});
+  if (!(d.shaft_collision_fraction <= limits.shaft_collision_fraction)) {
+    reasons.push_back(
+        {Kind::kShaftCollision, d.shaft_collision_fraction, limits.shaft_collision_fraction});
   }
   if (d.wrong <= question.may_be_wrong) {
     return reasons;
   }
-  // The log ratio at which an explanation with these prior odds is as probable as it may be.
-  const auto limit = [&](double odds) {
-    return std::log(question.may_be_wrong / (1.0 - question.may_be_wrong) / odds);
-  };
   double of_width = 0.0, of_poses = 0.0, of_mirror = 0.0, of_size = 0.0;
   for (const Explanation& e : d.explanations) {
     const double wrong = e.probability * e.wrong;
@@ -117,13 +124,14 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
   // What the bone is comes first: strokes of another one have other faults too.
   if (counts(of_mirror)) {
     reasons.insert(reasons.begin(),
-                   {Kind::kMirrored, r.mirror_log_likelihood, limit(question.prior.mirror_odds)});
+                   {Kind::kMirrored, r.mirror_log_likelihood, limits.mirror_log_likelihood});
   }
   if (!r.fits_better.empty()) {
     reasons.insert(reasons.begin(), {Kind::kFitsOtherLevel, 0.0, 0.0, {}, r.fits_better});
   }
   if (counts(of_poses)) {
-    reasons.push_back({Kind::kLogLikelihoodRatio, r.log_likelihood_ratio, -limit(1.0)});
+    reasons.push_back(
+        {Kind::kLogLikelihoodRatio, r.log_likelihood_ratio, limits.log_likelihood_ratio});
   }
   if (counts(of_size)) {
     reasons.push_back({Kind::kModelSize, r.size, question.size_off});
@@ -140,9 +148,54 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
 
 }  // namespace
 
-Result<Registration> register_by_posterior(const VertebraModel& model,
-                                           std::span<const Point<World>> points_in_world,
-                                           const PoseSearchRegistrationOptions& options) {
+bool is_provisional(const Registration& r) {
+  using Kind = RefusalReason::Kind;
+  // Root mean square error at the screws above which a pose is not good enough for pressed places.
+  constexpr double kMaxProvisional_m = 0.004;
+  const auto about_error = [](const RefusalReason& reason) {
+    return reason.kind == Kind::kTre99AtScrews || reason.kind == Kind::kSoftTissue;
+  };
+  return !r.reasons.empty() && std::all_of(r.reasons.begin(), r.reasons.end(), about_error) &&
+         r.uncertainty && r.predicted_tre_m <= kMaxProvisional_m;
+}
+
+RegistrationLimits registration_limits() { return limits_of({}); }
+
+Status validate_points(std::span<const Point<World>> points, std::size_t min_points, Bone bone) {
+  const std::size_t fewest = std::max<std::size_t>(min_points, 3);
+  if (points.size() < fewest) {
+    return refused(
+        {translatable("registration has %zu points, needs at least %zu"), {points.size(), fewest}});
+  }
+  std::vector<Vec3> numbers(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].v.is_finite()) {
+      return refused({translatable("registration point %zu is not finite"), {i + 1}});
+    }
+    numbers[i] = points[i].v;
+  }
+  const PrincipalAxes axes = principal_axes(numbers);
+  const double widest_m = bone == Bone::kVertebra ? kWidest_m : kWidestOfAnyBone_m;
+  if (!(axes.deviation_m[0] <= widest_m)) {
+    return refused(
+        {translatable("registration points spread %.4g mm (standard deviation), limit %.0f mm: "
+                      "not one bone, or not in the unit given"),
+         {axes.deviation_m[0] * 1e3, widest_m * 1e3},
+         true});
+  }
+  if (!(axes.deviation_m[1] >= kNarrowest_m)) {
+    return refused(
+        {translatable("registration points lie on a line or in one place (%.3g mm wide, at "
+                      "least %.0f mm)"),
+         {axes.deviation_m[1] * 1e3, kNarrowest_m * 1e3},
+         true});
+  }
+  return {};
+}
+
+Result<Registration> register_by_pose_search(const VertebraModel& model,
+                                             std::span<const Point<World>> points_in_world,
+                                             const PoseSearchRegistrationOptions& options) {
   if (const Status s = validate_points(points_in_world, options.min_points, model.bone()); !s) {
     return s.error();
   }
@@ -209,4 +262,4 @@ Result<Registration> register_by_posterior(const VertebraModel& model,
   return r;
 }
 
-}  // namespace orthonav::nav::posterior
+}  // namespace orthonav::nav
