@@ -122,54 +122,6 @@ TEST(PosteriorRegistration, TissueIsSeenWhereItLiesAndAsksForPresses) {
   EXPECT_NEAR(sum, sum_true, 0.001);
 }
 
-TEST(PosteriorRegistration, StrokesOfAnotherLevelAreRefusedByItsName) {
-  const PhantomBone l2("L2");
-  const auto foreign = test::digitize_strokes(l2.from.mesh, test::StrokeVariant::kFull, 1).value();
-  PoseSearchRegistrationOptions o = options_of(l4());
-  o.neighbours.push_back({"L2", l2.model.get()});
-  const Registration r = register_by_pose_search(*l4().model, foreign.tips(), o).value();
-  EXPECT_FALSE(r.accepted);
-  EXPECT_FALSE(r.provisional);
-  EXPECT_EQ(r.fits_better, "L2");
-  EXPECT_EQ(r.levels_compared, 1U);
-  ASSERT_FALSE(r.reasons.empty());
-  EXPECT_EQ(r.reasons.front().kind, Kind::kFitsOtherLevel);
-  EXPECT_EQ(r.reasons.front().level, "L2");
-}
-
-TEST(PosteriorRegistration, StrokesThatSlideAreRefused) {
-  // Strokes over one side of the spinous process alone, which slide and turn on it.
-  const auto all = test::digitize_strokes(l4().from.mesh, test::StrokeVariant::kFull, 3).value();
-  std::vector<Point<World>> tips;
-  for (const test::DigitizedSample& s : all.samples) {
-    if (s.region == test::BoneRegion::kLeftSpinousSide) {
-      tips.push_back(s.tip);
-    }
-  }
-  ASSERT_GT(tips.size(), 100U);
-  const Registration r = register_by_pose_search(*l4().model, tips, options_of(l4())).value();
-  EXPECT_FALSE(r.accepted);
-  EXPECT_TRUE(names(r, Kind::kLogLikelihoodRatio) || names(r, Kind::kTre99AtScrews));
-}
-
-TEST(PosteriorRegistration, ShaftsThatWouldGoThroughBoneSpeakAgainstAPose) {
-  const auto strokes =
-      test::digitize_strokes(l4().from.mesh, test::StrokeVariant::kFull, 4).value();
-  PoseSearchRegistrationOptions o = options_of(l4());
-  // As if the pointer had come from the front.
-  o.shafts.assign(strokes.samples.size(),
-                  strokes.world_from_vertebra.rotation() * Vec3{0.0, -1.0, 0.0});
-  const Registration r = register_by_pose_search(*l4().model, strokes.tips(), o).value();
-  double off_m = 0.0;
-  for (const Point<Vertebra>& target : o.targets) {
-    off_m = std::max(
-        off_m, (r.world_from_vertebra * target - strokes.world_from_vertebra * target).norm());
-  }
-  EXPECT_TRUE(r.shaft_collision_fraction > 0.5 || off_m > 0.01);
-  EXPECT_FALSE(r.accepted);
-  EXPECT_EQ(names(r, Kind::kShaftCollision), r.shaft_collision_fraction > 0.07);
-}
-
 TEST(PosteriorRegistration, ShaftsSpeakOfTheMirrorImageAsOfTheBone) {
   // One of 25 shafts seems to go through bone, in either.
   const auto strokes =
