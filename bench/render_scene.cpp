@@ -120,8 +120,8 @@ std::vector<render::View> swayed(const std::vector<render::View>& views, int fra
   std::vector<render::View> out = views;
   const float angle_rad = 0.1f * static_cast<float>(frame);
   for (render::View& view : out) {
-    view.eye_from_world[12] += 0.004f * std::cos(angle_rad);
-    view.eye_from_world[13] += 0.003f * std::sin(angle_rad);
+    view.eye_from_world[3].x += 0.004f * std::cos(angle_rad);
+    view.eye_from_world[3].y += 0.003f * std::sin(angle_rad);
   }
   return out;
 }
