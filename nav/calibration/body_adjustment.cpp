@@ -200,10 +200,8 @@ void summarize(const std::vector<double>& lengths_px, double scale_px, BodyFit& 
 std::vector<PoseCovariance> blocks_of(const Eigen::MatrixXd& inverse, double variance_px2) {
   std::vector<PoseCovariance> blocks(static_cast<std::size_t>(inverse.rows() / 6));
   for (std::size_t block = 0; block < blocks.size(); ++block) {
-    for (std::size_t i = 0; i < 36; ++i) {
-      blocks[block][i] = variance_px2 * inverse(static_cast<Eigen::Index>(6 * block + i / 6),
-                                                static_cast<Eigen::Index>(6 * block + i % 6));
-    }
+    const auto at = static_cast<Eigen::Index>(6 * block);
+    blocks[block] = rows_of<36>(Matrix6(variance_px2 * inverse.block<6, 6>(at, at)));
   }
   return blocks;
 }

@@ -13,8 +13,6 @@ constexpr int kMaxSquares = 50;
 constexpr double kSmallestM = 0.001;
 constexpr double kLargestM = 0.5;
 
-double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-
 /// Mean grey of the squares with the first inner square's colour, minus that of the others.
 double first_colour(const GreyImage& image, const Chessboard& board,
                     const std::vector<Vec2>& corners_px) {
@@ -66,7 +64,7 @@ void put_in_order(const GreyImage& image, const Chessboard& board, std::vector<V
   const Vec2 along = corners_px[a_row - 1] - corners_px[0];
   const Vec2 down = corners_px[corners_px.size() - a_row] - corners_px[0];
   // A mirrored order would mean a board seen from behind.
-  if (cross(along, down) < 0) {
+  if (along.cross(down) < 0) {
     for (std::size_t start = 0; start < corners_px.size(); start += a_row) {
       std::reverse(corners_px.begin() + static_cast<long>(start),
                    corners_px.begin() + static_cast<long>(start + a_row));

@@ -41,32 +41,19 @@ bool is_collinear(std::span<const Vec3> points, Vec3 centre) {
   return !(longest > 0.0) || solver.eigenvalues()(1) <= kCollinear * kCollinear * longest;
 }
 
-// Horn's N: its largest eigenvector is the quaternion (w, x, y, z).
-Eigen::Matrix4d horn_matrix(const Mat3& s) {
-  const double xx = s[0][0], xy = s[0][1], xz = s[0][2];
-  const double yx = s[1][0], yy = s[1][1], yz = s[1][2];
-  const double zx = s[2][0], zy = s[2][1], zz = s[2][2];
-  Eigen::Matrix4d n;
-  n << xx + yy + zz, yz - zy, zx - xz, xy - yx,  //
-      yz - zy, xx - yy - zz, xy + yx, zx + xz,   //
-      zx - xz, xy + yx, -xx + yy - zz, yz + zy,  //
-      xy - yx, zx + xz, yz + zy, -xx - yy + zz;
-  return n;
-}
-
 Mat3 best_rotation(std::span<const Vec3> from, Vec3 from_centre, std::span<const Vec3> to,
                    Vec3 to_centre) {
-  Mat3 s;
+  Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < from.size(); ++i) {
-    const Vec3 a = from[i] - from_centre;
-    const Vec3 b = to[i] - to_centre;
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) {
-        s[r][static_cast<std::size_t>(c)] += a[r] * b[c];
-      }
-    }
+    s += vector_as<Eigen::Vector3d>(from[i] - from_centre) *
+         vector_as<Eigen::Vector3d>(to[i] - to_centre).transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(horn_matrix(s));
+  // Horn's N: its largest eigenvector is the quaternion (w, x, y, z).
+  const Eigen::Vector3d turn(s(1, 2) - s(2, 1), s(2, 0) - s(0, 2), s(0, 1) - s(1, 0));
+  Eigen::Matrix4d n;
+  n << s.trace(), turn.transpose(),  //
+      turn, s + s.transpose() - s.trace() * Eigen::Matrix3d::Identity();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(n);
   const Eigen::Vector4d q = solver.eigenvectors().col(3);
   return rotation_from_quaternion({q(1), q(2), q(3), q(0)});
 }

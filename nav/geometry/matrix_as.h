@@ -32,6 +32,11 @@ template <class Matrix3>
   return out;
 }
 
+template <class Matrix3>
+[[nodiscard]] Mat3 mat_of(const Matrix3& m) {
+  return Mat3::from_columns(vec_of(m.col(0)), vec_of(m.col(1)), vec_of(m.col(2)));
+}
+
 /// The matrix of the cross product: skew(v)·u = v × u.
 template <class Matrix3>
 [[nodiscard]] Matrix3 skew_as(Vec3 v) {
@@ -96,13 +101,7 @@ template <class A, class B>
 /// Symmetrizes a 6×6 covariance that is symmetric up to rounding: the mean of it and its transpose.
 template <class Matrix6>
 [[nodiscard]] PoseCovariance symmetrized(const Matrix6& m) {
-  PoseCovariance out;
-  for (int r = 0; r < 6; ++r) {
-    for (int c = 0; c < 6; ++c) {
-      out[static_cast<std::size_t>(6 * r + c)] = 0.5 * (m(r, c) + m(c, r));
-    }
-  }
-  return out;
+  return rows_of<36>(Matrix6(0.5 * (m + m.transpose())));
 }
 
 }  // namespace orthonav::nav

@@ -1,6 +1,9 @@
 #include "nav/guidance/executed_trajectory.h"
 
 #include <cmath>
+#include <Eigen/Core>
+
+#include "nav/geometry/matrix_as.h"
 
 namespace orthonav::nav {
 namespace {
@@ -8,25 +11,19 @@ namespace {
 /// cos(60°): a tool at a larger angle to the plan is left out.
 constexpr double kAlongPlan = 0.5;
 
+using ByRows = Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
+
 void add_product(std::array<double, 9>& sums, Vec3 v) {
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      sums[static_cast<std::size_t>(3 * r + c)] += v[r] * v[c];
-    }
-  }
+  const auto e = vector_as<Eigen::Vector3d>(v);
+  ByRows(sums.data()) += e * e.transpose();
 }
 
 /// Adds to a covariance that of the mean of `n` scattered values, from their sums.
-void add_of_mean(std::array<double, 9>& covariance, const std::array<double, 9>& squares, Vec3 sum,
+void add_of_mean(std::array<double, 9>& covariance, std::array<double, 9> squares, Vec3 sum,
                  double n) {
-  if (n < 2.0) {
-    return;
-  }
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      const auto i = static_cast<std::size_t>(3 * r + c);
-      covariance[i] += (squares[i] - sum[r] * sum[c] / n) / (n - 1.0) / n;
-    }
+  if (n >= 2.0) {
+    const auto e = vector_as<Eigen::Vector3d>(sum);
+    ByRows(covariance.data()) += (ByRows(squares.data()) - e * e.transpose() / n) / (n - 1.0) / n;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <Eigen/Core>
 
 #include "nav/geometry/matrix_as.h"
 
@@ -24,12 +25,9 @@ double sd_of_length(const Covariance& covariance, Vec3 deviation, Vec3 axis) {
 }
 
 void add_across(Covariance& covariance, Vec3 axis, double variance) {
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      covariance[static_cast<std::size_t>(3 * r + c)] +=
-          variance * ((r == c ? 1.0 : 0.0) - axis[r] * axis[c]);
-    }
-  }
+  const auto e = vector_as<Eigen::Vector3d>(axis);
+  Eigen::Map<Eigen::Matrix3d>(covariance.data()) +=
+      variance * (Eigen::Matrix3d::Identity() - e * e.transpose());
 }
 
 }  // namespace

@@ -192,8 +192,6 @@ struct Crossing {
   double steepness = 0.0;
 };
 
-double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-
 /// +1 when the image gets brighter along the normal, else -1.
 double sense_of(const GreyImage& image, Vec2 a, Vec2 b, Vec2 normal) {
   constexpr int kProbes = 9;
@@ -260,7 +258,7 @@ std::optional<Line> robust_line(const std::vector<Crossing>& seen) {
   std::optional<Line> line = line_through(seen, weights);
   for (int round = 0; round < kReweightings && line; ++round) {
     for (std::size_t i = 0; i < seen.size(); ++i) {
-      off_px[i] = std::abs(cross(seen[i].place - line->point, line->direction));
+      off_px[i] = std::abs((seen[i].place - line->point).cross(line->direction));
     }
     const double limit_px = kTukey * std::max(kLeastScalePx, kMadToSd * median(off_px));
     for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -317,11 +315,11 @@ std::array<Vec2, 4> refined_corners(const GreyImage& image, const std::array<Vec
   for (std::size_t i = 0; i < 4; ++i) {
     const Line& before = edges[(i + 3) % 4];
     const Line& after = edges[i];
-    const double sine = cross(before.direction, after.direction);
+    const double sine = before.direction.cross(after.direction);
     if (std::abs(sine) < kLeastSine) {
       continue;
     }
-    const double along = cross(after.point - before.point, after.direction) / sine;
+    const double along = (after.point - before.point).cross(after.direction) / sine;
     const Vec2 meeting = before.point + along * before.direction;
     // A corner farther off than edges were searched for has slid along a misjudged edge.
     if ((meeting - corners_px[i]).norm() <= 2 * kReach_px) {
@@ -346,9 +344,8 @@ class SquareToQuad {
     const Vec2 d1 = q[1] - q[2];
     const Vec2 d2 = q[3] - q[2];
     const Vec2 sum = q[0] - q[1] + q[2] - q[3];
-    const double det = d1.x * d2.y - d2.x * d1.y;
-    g_ = (sum.x * d2.y - d2.x * sum.y) / det;
-    h_ = (d1.x * sum.y - sum.x * d1.y) / det;
+    g_ = sum.cross(d2) / d1.cross(d2);
+    h_ = d1.cross(sum) / d1.cross(d2);
     along_ = q[1] - q[0] + g_ * q[1];
     up_ = q[3] - q[0] + h_ * q[3];
   }
@@ -372,7 +369,7 @@ int turning_sense(const std::array<Vec2, 4>& corners) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec2 a = corners[(i + 1) % 4] - corners[i];
     const Vec2 b = corners[(i + 2) % 4] - corners[(i + 1) % 4];
-    const double turn = a.x * b.y - a.y * b.x;
+    const double turn = a.cross(b);
     right += turn > 0;
     left += turn < 0;
   }

@@ -209,17 +209,6 @@ inline bool reaches_edge(const float* axis, std::ptrdiff_t stride) {
   return axis[kLowDensity * stride] + axis[kHighDensity * stride] != 0.0F;
 }
 
-Mat3 inverse_of(const Mat3& m) {
-  const Vec3 a = m.column(0);
-  const Vec3 b = m.column(1);
-  const Vec3 c = m.column(2);
-  const double det = a.dot(b.cross(c));
-  const Vec3 r0 = b.cross(c) / det;
-  const Vec3 r1 = c.cross(a) / det;
-  const Vec3 r2 = a.cross(b) / det;
-  return {{{{r0.x, r0.y, r0.z}, {r1.x, r1.y, r1.z}, {r2.x, r2.y, r2.z}}}};
-}
-
 /// The pixel of a unit-plane point past the image's edge, by the scale in the middle.
 Vec2 rough_pixel(const CameraModel& camera, Vec2 u) {
   const int w = camera.width_px();
@@ -250,14 +239,10 @@ bool ViewModel::place(const CameraModel& camera, const BlurredTag& tag, const Ca
     return false;
   }
   eye_cells_ = eye;
-  const Mat3 inverse =
-      inverse_of(Mat3::from_columns(pose.rotation.column(0), pose.rotation.column(1), t));
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      plane_from_ray_[static_cast<std::size_t>(3 * r + c)] =
-          static_cast<float>(inverse[r][static_cast<std::size_t>(c)]);
-    }
-  }
+  auto ray_from_plane = matrix_as<Eigen::Matrix3d>(pose.rotation);
+  ray_from_plane.col(2) = vector_as<Eigen::Vector3d>(t);
+  Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(plane_from_ray_.data()) =
+      ray_from_plane.inverse().cast<float>();
   depth_ = static_cast<float>(t.z);
   half_ = 0.5F * static_cast<float>(tag.cells().cells);
   Vec2 low{1e9, 1e9};

@@ -104,13 +104,8 @@ struct Equations {
   std::vector<double> apart;  ///< from the pose before
 };
 
-Equations equations_of(std::span<const Transform<World, Marker>> poses,
-                       std::span<const std::size_t> chosen, const PivotFit& fit) {
-  Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
-  for (const std::size_t i : chosen) {
-    mean += matrix_as<Eigen::Matrix3d>(poses[i].rotation());
-  }
-  mean /= static_cast<double>(chosen.size());
+Equations equations_of(Poses poses, Chosen chosen, const PivotFit& fit) {
+  const Eigen::Matrix3d mean = means_of(poses, chosen).rotation;
   Equations out;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const auto& pose = poses[chosen[k]];
@@ -206,18 +201,13 @@ TipUncertainty tip_uncertainty(std::span<const Transform<World, Marker>> poses,
   const double freedom = 3.0 * count - 3.0 * pair_sum / count - (inverse * pairs).trace();
   const Eigen::Matrix3d covariance = squares / freedom * inverse * pairs * inverse;
   TipUncertainty out;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      out.covariance_m2[r][c] = covariance(r, c);
-    }
-  }
+  out.covariance_m2 = mat_of(covariance);
   out.independent_poses = count * count / pair_sum;
   return out;
 }
 
 namespace {
 
-using Poses = std::span<const Transform<World, Marker>>;
 using PivotConsensus = Consensus<PivotFit>;
 
 /// Limits beyond which a result gets a note.

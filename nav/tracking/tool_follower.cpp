@@ -138,9 +138,9 @@ void ExposureEstimator::add(const BlurSighting& sighting) {
     const Vec2 speed = (1.0 / dt) * (sighting.centre_px - before_->centre_px);
     const Vec2 c = middle_->column_px;
     const Vec2 r = middle_->row_px;
-    const double area = c.x * r.y - c.y * r.x;
-    const double across = (speed.x * r.y - speed.y * r.x) / area;
-    const double down = (c.x * speed.y - c.y * speed.x) / area;
+    const double area = c.cross(r);
+    const double across = speed.cross(r) / area;
+    const double down = c.cross(speed) / area;
     if (std::isfinite(across) && std::isfinite(down)) {
       add(middle_->blur_cells.x * middle_->blur_cells.x * c.dot(c), across * across * c.dot(c));
       add(middle_->blur_cells.y * middle_->blur_cells.y * r.dot(r), down * down * r.dot(r));
