@@ -15,7 +15,6 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Matrix2x6 = Eigen::Matrix<double, 2, 6, Eigen::RowMajor>;
 
 constexpr int kMostSteps = 100;
 // Number of initial steps in which the scale of the weights follows the residuals.
@@ -132,28 +131,25 @@ class System {
   void add(const BodyResidual& row, std::size_t pair, double scale_px) {
     const double weight = cauchy_weight(row.corner.off_px.norm(), scale_px);
     const Eigen::Vector2d off(weight * row.corner.off_px.x, weight * row.corner.off_px.y);
-    const Matrix2x6 by_body = Eigen::Map<const Matrix2x6>(row.corner.by_body.data());
-    const Matrix2x6 by_tag = Eigen::Map<const Matrix2x6>(row.corner.by_tag.data());
-    const Matrix2x6 by_camera = Eigen::Map<const Matrix2x6>(row.corner.by_camera.data());
-    const Matrix2x6 weighted = weight * by_body;
-    body_[pair] += by_body.transpose() * weighted;
-    body_right_[pair] -= by_body.transpose() * off;
-    const auto add_block = [&](int block, const Matrix2x6& j) {
+    const PixelByPose weighted = weight * row.corner.by_body;
+    body_[pair] += row.corner.by_body.transpose() * weighted;
+    body_right_[pair] -= row.corner.by_body.transpose() * off;
+    const auto add_block = [&](int block, const PixelByPose& j) {
       if (block < 0) {
         return;
       }
-      const Matrix2x6 own = weight * j;
+      const PixelByPose own = weight * j;
       global_.block<6, 6>(6 * block, 6 * block) += j.transpose() * own;
       global_right_.segment<6>(6 * block) -= j.transpose() * off;
       cross_[pair].middleRows<6>(6 * block) += j.transpose() * weighted;
     };
-    add_block(row.tag, by_tag);
-    add_block(row.camera, by_camera);
+    add_block(row.tag, row.corner.by_tag);
+    add_block(row.camera, row.corner.by_camera);
     if (row.tag < 0 || row.camera < 0) {
       return;
     }
-    const Matrix2x6 camera = weight * by_camera;
-    const Matrix6 between = by_tag.transpose() * camera;
+    const PixelByPose camera = weight * row.corner.by_camera;
+    const Matrix6 between = row.corner.by_tag.transpose() * camera;
     global_.block<6, 6>(6 * row.tag, 6 * row.camera) += between;
     global_.block<6, 6>(6 * row.camera, 6 * row.tag) += between.transpose();
   }

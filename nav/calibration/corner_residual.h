@@ -1,24 +1,24 @@
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
 #include <optional>
 
 #include "base/transform.h"
 #include "hal/api/camera_model.h"
+#include "nav/geometry/matrix_as.h"
 
 namespace orthonav::nav {
 
-/// Derivative of a pixel by a small (translation m, rotation rad) of a pose a_from_b, both in A:
-/// two rows.
-using PixelByPose = std::array<double, 12>;
+/// Derivative of a pixel by a small (translation m, rotation rad) of a pose a_from_b, both in A.
+using PixelByPose = Eigen::Matrix<double, 2, 6>;
 
 /// A corner in one image: the pixel where the poses put it minus the one where it is seen, and the
 /// derivatives of that difference.
 struct CornerResidual {
   Vec2 off_px;
-  PixelByPose by_body{};    ///< by rig_from_marker
-  PixelByPose by_tag{};     ///< by marker_from_tag
-  PixelByPose by_camera{};  ///< by camera_from_rig
+  PixelByPose by_body = PixelByPose::Zero();    ///< by rig_from_marker
+  PixelByPose by_tag = PixelByPose::Zero();     ///< by marker_from_tag
+  PixelByPose by_camera = PixelByPose::Zero();  ///< by camera_from_rig
 };
 
 /// From tag to marker, to rig, to camera, to pixel; empty if the corner does not project.
@@ -43,24 +43,18 @@ template <class Camera>
   if (!slope) {
     return std::nullopt;
   }
-  const Vec3 x_by_point{1.0 / p.z, 0.0, -p.x / (p.z * p.z)};
-  const Vec3 y_by_point{0.0, 1.0 / p.z, -p.y / (p.z * p.z)};
-  for (std::size_t row = 0; row < 2; ++row) {
-    const Vec3 by_point = (*slope)[2 * row] * x_by_point + (*slope)[2 * row + 1] * y_by_point;
-    const Vec3 in_rig_axes = camera_from_rig.rotation().transposed() * by_point;
-    const Vec3 in_marker_axes = rig_from_marker.rotation().transposed() * in_rig_axes;
-    // A rotation w moves a point at lever arm a by w × a; the gradient by w is a × g.
-    const auto fill = [row](PixelByPose& out, Vec3 gradient, Vec3 lever_arm) {
-      const Vec3 by_rotation = lever_arm.cross(gradient);
-      for (int i = 0; i < 3; ++i) {
-        out[6 * row + static_cast<std::size_t>(i)] = gradient[i];
-        out[6 * row + 3 + static_cast<std::size_t>(i)] = by_rotation[i];
-      }
-    };
-    fill(residual.by_camera, by_point, camera_from_rig.rotation() * in_rig.v);
-    fill(residual.by_body, in_rig_axes, rig_from_marker.rotation() * in_marker.v);
-    fill(residual.by_tag, in_marker_axes, marker_from_tag.rotation() * corner.v);
-  }
+  Eigen::Matrix<double, 2, 3> unit_plane;
+  unit_plane << 1.0 / p.z, 0.0, -p.x / (p.z * p.z), 0.0, 1.0 / p.z, -p.y / (p.z * p.z);
+  const Eigen::Matrix<double, 2, 3> in_camera_axes =
+      Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(slope->data()) * unit_plane;
+  const Eigen::Matrix<double, 2, 3> in_rig_axes =
+      in_camera_axes * matrix_as<Eigen::Matrix3d>(camera_from_rig.rotation());
+  const Eigen::Matrix<double, 2, 3> in_marker_axes =
+      in_rig_axes * matrix_as<Eigen::Matrix3d>(rig_from_marker.rotation());
+  using Moves = Eigen::Matrix<double, 3, 6>;
+  residual.by_camera = in_camera_axes * moves_as<Moves>(camera_from_rig.rotation() * in_rig.v);
+  residual.by_body = in_rig_axes * moves_as<Moves>(rig_from_marker.rotation() * in_marker.v);
+  residual.by_tag = in_marker_axes * moves_as<Moves>(marker_from_tag.rotation() * corner.v);
   return residual;
 }
 
