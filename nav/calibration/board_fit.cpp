@@ -6,6 +6,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "nav/geometry/matrix_as.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -132,15 +134,8 @@ int flags_for(LensTerms terms) {
 
 Result<Transform<RightCamera, LeftCamera>> transform_from(const cv::Mat& rotation,
                                                           const cv::Mat& translation) {
-  Mat3 rotation_matrix;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      rotation_matrix[r][static_cast<std::size_t>(c)] = rotation.at<double>(r, c);
-    }
-  }
-  return Transform<RightCamera, LeftCamera>::checked(
-      rotation_matrix,
-      {translation.at<double>(0), translation.at<double>(1), translation.at<double>(2)});
+  return Transform<RightCamera, LeftCamera>::checked(mat_of(cv::Matx33d(rotation)),
+                                                     vec_of(cv::Matx31d(translation)));
 }
 
 }  // namespace
