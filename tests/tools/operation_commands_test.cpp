@@ -27,15 +27,6 @@ void expect_refusal(const Called& called, const std::string& reason) {
   EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1) << called.err;
 }
 
-/// A folder for results whose prepared models are those of all tests.
-std::string results_in(const ScratchFolder& folder) {
-  const std::string out = folder.file("out");
-  std::filesystem::create_directories(out);
-  std::filesystem::create_directories(ORTHONAV_TEST_MODELS);
-  std::filesystem::create_directory_symlink(ORTHONAV_TEST_MODELS, out + "/models");
-  return out;
-}
-
 TEST(RunCommand, RefusesItsArgumentsBeforeItPreparesAnything) {
   expect_refusal(orthonav({"run", "--headset", "sim:?sed=3", "--case", "/none"}),
                  "unknown key \"sed\"");
@@ -145,7 +136,9 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
     }
   }
   EXPECT_THAT(content_of(out + "/operation.mp4"), HasSubstr("ftyp"));
-  const Called run = orthonav({"run", "--levels", "L5", "--frames", "2", "--json"});
+  const ScratchFolder other;
+  const Called run =
+      orthonav({"run", "--levels", "L5", "--frames", "2", "--json", "--out", results_in(other)});
   EXPECT_EQ(json::parse(run.out)["common_errors"], report["common_errors"]);
   EXPECT_NEAR(registration["common_sd_mm"]["cameras"].get<double>(), 0.46, 0.005);
 }
@@ -298,8 +291,11 @@ TEST(RodsOnly, NeedNoCaseOnAHeadset) {
 
 TEST(RunCommand, RefusesBadInput) {
   const ScratchFolder folder;
-  expect_refusal(orthonav({"run", "--levels", "L5", "--headset", "holo:"}), "unknown scheme");
-  expect_refusal(orthonav({"run", "--levels", "L5", "--headset", "replay:" + folder.file("none")}),
+  const std::string out = results_in(folder);
+  expect_refusal(orthonav({"run", "--levels", "L5", "--headset", "holo:", "--out", out}),
+                 "unknown scheme");
+  expect_refusal(orthonav({"run", "--levels", "L5", "--headset", "replay:" + folder.file("none"),
+                           "--out", out}),
                  "none");
   expect_refusal(orthonav({"run", "--method", "nearest"}), "nearest: unknown");
   expect_refusal(orthonav({"run", "--levels", "L5", "--tools", folder.with("t.json", "{}")}),

@@ -36,7 +36,8 @@ TEST_F(CutRecording, IsReadWithAWarningAndClosedByRepair) {
   const Called seen = orthonav({"doctor", "--headset", "replay:" + cut_});
   EXPECT_THAT(seen.out, AllOf(HasSubstr("2 pairs"), HasSubstr("Recording: cut off"),
                               HasSubstr("VLC RF.tar is cut off at byte ")));
-  const Called run = orthonav({"run", "--levels", "L5", "--headset", "replay:" + cut_});
+  const Called run = orthonav(
+      {"run", "--levels", "L5", "--headset", "replay:" + cut_, "--out", results_in(folder_)});
   EXPECT_THAT(run.err, HasSubstr("warning: the recording was cut off and is read to its last whole "
                                  "pair, 2 in all (VLC RF.tar is cut off"));
   const Called repaired = orthonav({"recording", "repair", cut_, "--json"});

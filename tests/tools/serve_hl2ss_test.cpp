@@ -55,8 +55,9 @@ TEST_P(StandIn, IsRunThrough) {
       << server.err_so_far();
   const std::string uri = "hl2ss://127.0.0.1?port=" + std::to_string(GetParam().port) +
                           "&standin=" + std::to_string(GetParam().port + 19) + GetParam().uri;
-  const Called run =
-      orthonav({"run", "--headset", uri, "--levels", "L5", "--frames", "30", "--stats", "--json"});
+  const ScratchFolder folder;
+  const Called run = orthonav({"run", "--headset", uri, "--levels", "L5", "--frames", "30",
+                               "--stats", "--json", "--out", results_in(folder)});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(nlohmann::json::parse(run.out)["frames"]["displayed"], 30) << run.err;
   EXPECT_THAT(run.err, HasSubstr(GetParam().counts));
@@ -111,7 +112,9 @@ TEST(Doctor, LooksAtTheHeadsetsPorts) {
 }
 
 TEST(RunWithAHeadset, SaysWhichPortDoesNotAnswer) {
-  const Called called = orthonav({"run", "--headset", "hl2ss://127.0.0.1?port=27400"});
+  const ScratchFolder folder;
+  const Called called =
+      orthonav({"run", "--headset", "hl2ss://127.0.0.1?port=27400", "--out", results_in(folder)});
   EXPECT_EQ(called.code, 2);
   EXPECT_THAT(called.err, HasSubstr("hl2ss: 127.0.0.1: port 27400: Connection refused"));
 }

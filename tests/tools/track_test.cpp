@@ -99,8 +99,10 @@ class TrackCommand : public ::testing::Test {
 class TrackBadInput : public TrackCommand {
  protected:
   void SetUp() override {
+    const ScratchFolder results;
     sample_ = folder_.file("recording");
-    const Called made = orthonav({"run", "--levels", "L5", "--frames", "3", "--record", sample_});
+    const Called made = orthonav({"run", "--levels", "L5", "--frames", "3", "--record", sample_,
+                                  "--out", results_in(results)});
     ASSERT_EQ(made.code, 0) << made.err;
   }
 };

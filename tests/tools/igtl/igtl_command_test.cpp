@@ -28,7 +28,9 @@ using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 
 TEST(IgtlCommand, ServesARunUntilItEnds) {
-  StartedCommand command({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--igtl", "0"});
+  const test::ScratchFolder folder;
+  StartedCommand command({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--igtl", "0",
+                          "--out", test::results_in(folder)});
   int port = 0;
   ASSERT_TRUE(test::wait_until([&] { return (port = served_port(command)) != 0; }));
   test::IgtlClient listener(port);
@@ -53,8 +55,9 @@ TEST(IgtlCommand, ServesARunUntilItEnds) {
 }
 
 TEST(IgtlCommand, AnswersWhatItsClientsAskWhereTheyMay) {
-  StartedCommand command(
-      {"run", "--headset", "sim:?seed=3", "--levels", "L5", "--igtl", "0", "--igtl-commands"});
+  const test::ScratchFolder folder;
+  StartedCommand command({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--igtl", "0",
+                          "--igtl-commands", "--out", test::results_in(folder)});
   int port = 0;
   ASSERT_TRUE(test::wait_until([&] { return (port = served_port(command)) != 0; }));
   test::IgtlClient client(port);
@@ -118,12 +121,13 @@ class Sender {
 
 TEST(IgtlCommand, RunsOnToolsThatAnotherProgramTracks) {
   const Sender sender;
-  const test::TemporaryFolder folder;
+  const test::ScratchFolder folder;
   const std::string tools = folder.with("tools.json", R"({"tools": [
       {"name": "pointer", "role": "pointer", "tip_mm": [0, 0, 0]},
       {"name": "guide", "role": "guide", "tip_mm": [0, -150, 0]}]})");
-  const test::Called ran = test::orthonav(
-      {"run", "--headset", sender.uri(), "--tools", tools, "--levels", "L5", "--frames", "20"});
+  const test::Called ran =
+      test::orthonav({"run", "--headset", sender.uri(), "--tools", tools, "--levels", "L5",
+                      "--frames", "20", "--out", test::results_in(folder)});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("20 frames displayed"));
   EXPECT_THAT(ran.err, HasSubstr("has no button: --clicker names one"));
