@@ -1,5 +1,6 @@
 #include "nav/geometry/surface_depth.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace orthonav::nav {
@@ -25,9 +26,10 @@ bool lies_inside(const SurfaceIndex& closed, Vec3 place_m, const SurfacePoint& n
 
 }  // namespace
 
-std::optional<SurfaceDepth> DepthProbe::at(Vec3 place_m) {
-  const double within_m =
-      last_m_ ? (*last_m_ - place_m).norm() * (1.0 + kRounding) + kRounding_m : 1e9;
+std::optional<SurfaceDepth> DepthProbe::at(Vec3 place_m, double within_m) {
+  if (last_m_) {
+    within_m = std::min(within_m, (*last_m_ - place_m).norm() * (1.0 + kRounding) + kRounding_m);
+  }
   const auto nearest = closed_.nearest(place_m, within_m);
   if (!nearest) {
     return std::nullopt;

@@ -22,8 +22,9 @@ struct SurfaceDepth {
 class DepthProbe {
  public:
   explicit DepthProbe(const SurfaceIndex& closed) : closed_(closed) {}
-  /// Empty for a surface without faces and for a place that is not finite.
-  [[nodiscard]] std::optional<SurfaceDepth> at(Vec3 place_m);
+  /// Empty for a surface without faces, for a place that is not finite, and for one farther than
+  /// `within_m` from the surface: to find out that much is faster.
+  [[nodiscard]] std::optional<SurfaceDepth> at(Vec3 place_m, double within_m = 1e9);
 
  private:
   const SurfaceIndex& closed_;

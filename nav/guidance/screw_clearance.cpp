@@ -23,6 +23,8 @@ constexpr std::size_t kMostSlices = 128;
 constexpr double kPatch_m = 0.0012;
 /// A place this much shallower than the best one is not missed.
 constexpr double kTolerance_m = 0.00005;
+/// More than what rounding changes.
+constexpr double kRoundingOfDepth_m = 1e-12;
 /// First and last step of the descent from the shallowest place.
 constexpr double kFirstStep_m = 0.0005;
 constexpr double kLastStep_m = 0.000004;
@@ -66,11 +68,12 @@ class LeastDepth {
   [[nodiscard]] double least_in(double middle_depth_m, double half_m) const {
     return middle_depth_m - std::hypot(half_m, screw_.radius_m());
   }
-  std::optional<SurfaceDepth> take(double along_m, double around_rad);
+  std::optional<SurfaceDepth> take(double along_m, double around_rad, double within_m = 1e9);
   void descend();
   void close_steps();
   void examine(const Slice& slice);
   void examine_rim(double along_m, double half_m);
+  void look_at(const Patch& patch, bool inside);
   void refine(const Patch& patch, double depth_m);
 
   DepthProbe depths_;
@@ -80,9 +83,9 @@ class LeastDepth {
   double best_around_rad_ = 0.0;
 };
 
-/// The depth there, which becomes the best if it is smaller.
-std::optional<SurfaceDepth> LeastDepth::take(double along_m, double around_rad) {
-  const auto depth = depths_.at(screw_.at(along_m, around_rad).v);
+/// The depth there, which becomes the best if it is smaller; empty if the surface is farther.
+std::optional<SurfaceDepth> LeastDepth::take(double along_m, double around_rad, double within_m) {
+  const auto depth = depths_.at(screw_.at(along_m, around_rad).v, within_m);
   if (depth && depth->depth_m < best_m_) {
     best_m_ = depth->depth_m, best_along_m_ = along_m, best_around_rad_ = around_rad;
   }
@@ -181,10 +184,17 @@ void LeastDepth::examine_rim(double along_m, double half_m) {
   const auto columns = static_cast<int>(std::ceil(around_m / kPatch_m));
   const double half_rad = 0.5 * kTurn_rad / columns;
   for (int k = 0; k < columns; ++k) {
-    const Patch patch{along_m, (2.0 * k + 1.0) * half_rad, half_m, half_rad};
-    if (const auto depth = take(patch.along_m, patch.around_rad)) {
-      refine(patch, depth->depth_m);
-    }
+    look_at({along_m, (2.0 * k + 1.0) * half_rad, half_m, half_rad}, false);
+  }
+}
+
+/// `inside`: its middle is known to lie inside. How deep does not matter where it is neither the
+/// best nor open.
+void LeastDepth::look_at(const Patch& patch, bool inside) {
+  const double deep_m =
+      best_m_ + std::max(0.0, radius_m(patch) - kTolerance_m) + kRoundingOfDepth_m;
+  if (const auto depth = take(patch.along_m, patch.around_rad, inside ? deep_m : 1e9)) {
+    refine(patch, depth->depth_m);
   }
 }
 
@@ -192,14 +202,12 @@ void LeastDepth::refine(const Patch& patch, double depth_m) {
   if (!open(depth_m - radius_m(patch))) {
     return;
   }
+  const bool inside = depth_m > radius_m(patch);
   for (const double x : {-0.5, 0.5}) {
     for (const double y : {-0.5, 0.5}) {
-      const Patch part{patch.along_m + x * patch.half_along_m,
-                       patch.around_rad + y * patch.half_around_rad, 0.5 * patch.half_along_m,
-                       0.5 * patch.half_around_rad};
-      if (const auto depth = take(part.along_m, part.around_rad)) {
-        refine(part, depth->depth_m);
-      }
+      look_at({patch.along_m + x * patch.half_along_m, patch.around_rad + y * patch.half_around_rad,
+               0.5 * patch.half_along_m, 0.5 * patch.half_around_rad},
+              inside);
     }
   }
 }
