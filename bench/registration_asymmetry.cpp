@@ -42,7 +42,7 @@ double asymmetry_m(const nav::VertebraModel& model) {
   }
   nav::SurfaceFitOptions options;
   options.max_iterations = 40;
-  options.farthest_m = options.counted_m = kFarthest_m;
+  options.farthest_m = kFarthest_m;
   double least_m = std::numeric_limits<double>::infinity();
   for (const nav::CentredPose& start : starts(centre_m)) {
     const auto fit = nav::fit_to_surface(model.reachable_surface(), points_m, start, options);

@@ -191,6 +191,7 @@ std::optional<Round> last_round(const PressProblem& problem) {
   constexpr int kRounds = 6;
   constexpr int kRoundsByAll = 2;
   constexpr double kStands_m = 1e-6;
+  constexpr double kLever_m = 0.03;
   const std::optional<ModelError>& known = problem.prior.press.model;
   // The directions to the bone do not depend on the model error: a typical one is used to find
   // them, and all of them are used for the result.
@@ -204,7 +205,7 @@ std::optional<Round> last_round(const PressProblem& problem) {
     if (!round) {
       return std::nullopt;
     }
-    moved_m = (round->mean - at).head<3>().norm();
+    moved_m = (round->mean - at).head<3>().norm() + kLever_m * (round->mean - at).tail<3>().norm();
     at = round->mean;
   }
   const auto all = known ? usual : model_error_hypotheses();

@@ -124,8 +124,7 @@ std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
   }
   std::vector<double> scratch;
   for (bool last = false;; ++fit.iterations) {
-    measure(surface, points_m, last ? options.counted_m : options.farthest_m, options.tip_radius_m,
-            fit);
+    measure(surface, points_m, options.farthest_m, options.tip_radius_m, fit);
     fit.noise_m = std::clamp(spread_m(fit, scratch), options.least_noise_m, options.most_noise_m);
     weigh(fit);
     if (last || fit.iterations == options.max_iterations) {

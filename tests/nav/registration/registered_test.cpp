@@ -148,6 +148,17 @@ TEST(PosteriorRegistration, AModelKnownToBeOffLeavesMoreOpen) {
   EXPECT_GT(off.predicted_tre_m, 1.3 * exact.predicted_tre_m);
 }
 
+TEST(PosteriorPrior, TheDensityOfTheHeightAddsUpToOne) {
+  const Prior prior;
+  constexpr double kStep_m = 2e-6;
+  double sum = 0.0;
+  for (double s_m = 0.5 * kStep_m; s_m < 0.012; s_m += kStep_m) {
+    sum += kStep_m * std::exp(log_density_of_standoff(prior, s_m));
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-4);
+  EXPECT_NEAR(log_density_of_standoff(prior, 0.0), log_density_of_standoff(prior, 1e-9), 1e-4);
+}
+
 TEST(PosteriorPrior, ScatterIsExceededAsOftenAsItSays) {
   const Prior prior;
   const double often_m = scatter_exceeded_m(prior, 0.1);

@@ -117,7 +117,7 @@ TEST_F(SurfaceFitTest, CountsOutliersAsNoneAndLeavesTheRestTheirWeight) {
       // Three SDs leave (1 - (3 / 4.685)^2)^2; the least noise that is reckoned with is larger.
       EXPECT_GT(p.weight, 0.35) << i;
     }
-    EXPECT_LT(p.residual_m, SurfaceFitOptions().counted_m + 1e-9);
+    EXPECT_LT(p.residual_m, SurfaceFitOptions().farthest_m + 1e-9);
   }
 }
 
