@@ -146,8 +146,8 @@ void say_one(CommandSpotter& spotter, const std::string& command, const Options&
       sureness.right.push_back(above_line(found));
     }
     if (options.show) {
-      std::printf("%s %d %s %.0f dB: %s %.2f\n", speaker.voice.c_str(), speaker.words_a_minute,
-                  command.c_str(), snr_db, found.text.c_str(), found.confidence);
+      std::printf("%s %d %s %.0f dB: %s %+.2f\n", speaker.voice.c_str(), speaker.words_a_minute,
+                  command.c_str(), snr_db, found.text.c_str(), above_line(found));
     }
     if (found.confidence < 0.5) {
       return;
@@ -239,8 +239,8 @@ void measure_false_accepts(const Options& options, double snr_db) {
     heard_s += static_cast<double>(sound.size()) / kSpeechRateHz;
     listen(*spotter, sound, [&](const SpokenCommand& found, double) {
       if (options.show) {
-        std::printf("\"%s\" %.0f dB: %s %.2f\n", text.c_str(), snr_db, found.text.c_str(),
-                    found.confidence);
+        std::printf("\"%s\" %.0f dB: %s %+.2f\n", text.c_str(), snr_db, found.text.c_str(),
+                    above_line(found));
       }
       if (found.confidence < 0.5) {
         return;
@@ -285,9 +285,9 @@ void measure_other_words(const Options& options, const char* name, std::string_v
       listen(*spotter, phrase.sound, [&](const SpokenCommand& found, double) {
         sureness.other.push_back(above_line(found));
         if (options.show) {
-          std::printf("\"ortho %s\" %s %d %.0f dB %s: %s %.2f\n", word.c_str(),
+          std::printf("\"ortho %s\" %s %d %.0f dB %s: %s %+.2f\n", word.c_str(),
                       std::string(voice).c_str(), speed, snr_db, name_of(noise), found.text.c_str(),
-                      found.confidence);
+                      above_line(found));
         }
         if (found.confidence >= 0.5) {
           sure = true;

@@ -57,7 +57,7 @@ inline constexpr std::string_view kTuningWords =
     "close, coffee, collar, color, come, common, company, complete, complete last, concept, "
     "condition, contact, context, continue, control, cook, copy, corner, could be, country, "
     "course, cross, cup, current, daily, danger, dark, dart, date, dawn, day, deceit, decide, "
-    "deep, defeat, delay, delayed, delete all, delete it all, delete level, delete lost, delete "
+    "deep, defeat, delay, delayed, delete all, delete it all, delete level, delete "
     "rod, deliver, dentist, deny, deplete, desk, detail, difficult, digit, dilute, dinner, "
     "direct, display, distance, distant, do it, do not accept, do not start, do that, doctor, "
     "don't delete, donor, door, dress, drive, drop, during, each, early, earth, eat, education, "
