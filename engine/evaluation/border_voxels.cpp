@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/evaluation/every_nth.h"
 #include "nav/geometry/mesh.h"
-#include "nav/registration/every_nth.h"
 
 namespace orthonav::engine {
 namespace {
@@ -90,7 +90,7 @@ std::vector<BorderVoxel> border_voxels(const ScanField& scan, const Shaft& shaft
       out.push_back({place_m, scan.value(voxel)});
     }
   });
-  return nav::every_nth<BorderVoxel>(out, out.size() / kMost + 1);
+  return every_nth<BorderVoxel>(out, out.size() / kMost + 1);
 }
 
 }  // namespace orthonav::engine

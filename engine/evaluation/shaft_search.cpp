@@ -6,8 +6,8 @@
 #include <span>
 
 #include "base/random.h"
+#include "engine/evaluation/every_nth.h"
 #include "engine/evaluation/metal_cloud.h"
-#include "nav/registration/every_nth.h"
 
 namespace orthonav::engine {
 namespace {
@@ -22,7 +22,7 @@ constexpr double kHeadLength_m = 0.020;
 /// A part of the metal, for the search; the fits use all of it.
 std::vector<Vec3> thinned(std::span<const Vec3> all) {
   constexpr std::size_t kMost = 9000;
-  return nav::every_nth(all, all.size() / kMost + 1);
+  return every_nth(all, all.size() / kMost + 1);
 }
 
 /// The length of the unbroken metal about a line through `middle_m`, and its middle.

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/evaluation/every_nth.h"
 #include "engine/evaluation/shaft_model.h"
-#include "nav/registration/every_nth.h"
 
 namespace orthonav::engine {
 namespace {
@@ -35,7 +35,7 @@ class TipMisfit {
     const std::vector<BorderVoxel> more = border_voxels(scan, zone_of(second, reach_m), others);
     voxels.insert(voxels.end(), more.begin(), more.end());
     constexpr std::size_t kMost = 2500;
-    voxels = nav::every_nth<BorderVoxel>(voxels, voxels.size() / kMost + 1);
+    voxels = every_nth<BorderVoxel>(voxels, voxels.size() / kMost + 1);
     for (const BorderVoxel& voxel : voxels) {
       hu_.push_back(voxel.hu);
       for (const Vec3& part : model_.places_m) {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace orthonav::nav {
+namespace orthonav::engine {
 
 /// The elements at 0, `step`, 2 · `step`, ...; `step` is at least 1.
 template <class T>
@@ -17,4 +17,4 @@ std::vector<T> every_nth(std::span<const T> all, std::size_t step) {
   return out;
 }
 
-}  // namespace orthonav::nav
+}  // namespace orthonav::engine
