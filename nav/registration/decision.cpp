@@ -258,12 +258,12 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
         of, cloud,
         kind == Explanation::Kind::kAnswer ? question.targets : std::vector<Point<Vertebra>>{},
         observations.tip_radius_m);
-    for (std::size_t i = 0; i < std::min(most, found.best_first.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(most, found.size()); ++i) {
       Tried t;
       t.kind = kind;
       t.level = level;
       t.model = &of;
-      t.start = world_from(found.best_first[i].fit.pose, cloud.centre_m);
+      t.start = world_from(found[i].fit.pose, cloud.centre_m);
       // Starts that are so near to each other end at the same pose.
       constexpr double kSameStart_m = 0.001;
       const bool is_new = std::none_of(tried.begin(), tried.end(), [&](const Tried& other) {

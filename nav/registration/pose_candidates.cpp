@@ -122,8 +122,9 @@ std::optional<SurfaceFit> fit_to_bone(const VertebraModel& model, std::span<cons
   return fit_to_surface(model.reachable_surface(), points_m, start, options);
 }
 
-PoseCandidates find_candidates(const VertebraModel& model, const Cloud& cloud,
-                               std::span<const Point<Vertebra>> targets, double tip_radius_m) {
+std::vector<Candidate> find_candidates(const VertebraModel& model, const Cloud& cloud,
+                                       std::span<const Point<Vertebra>> targets,
+                                       double tip_radius_m) {
   const SurfaceFitOptions options = quick_fit(tip_radius_m);
   std::vector<Candidate> found = fitted_poses(model, cloud, targets, options);
   if (least_noise_m(found) > kLooseHand_m) {
@@ -135,7 +136,7 @@ PoseCandidates find_candidates(const VertebraModel& model, const Cloud& cloud,
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Candidate& a, const Candidate& b) { return a.cost_m2 < b.cost_m2; });
-  return {std::move(found), width_m};
+  return found;
 }
 
 }  // namespace orthonav::nav

@@ -33,18 +33,13 @@ struct Cloud {
 
 struct Candidate {
   SurfaceFit fit;
-  double cost_m2 = 0.0;  ///< mean squared distance, truncated at `PoseCandidates::width_m`
-};
-struct PoseCandidates {
-  std::vector<Candidate> best_first;
-  double width_m = 0.0;  ///< where squared distances are truncated, depending on the noise of the
-                         ///< best fit
+  double cost_m2 = 0.0;  ///< mean squared distance, truncated at some SDs of the noise
 };
 
-/// Every pose that could explain the points, each fitted to `few_m`. If targets are given, the
-/// search continues until one candidate differs from the first one at the targets.
-[[nodiscard]] PoseCandidates find_candidates(const VertebraModel& model, const Cloud& cloud,
-                                             std::span<const Point<Vertebra>> targets,
-                                             double tip_radius_m);
+/// Every pose that could explain the points, each fitted to `few_m`, the best first. If targets are
+/// given, the search continues until one candidate differs from the first one at the targets.
+[[nodiscard]] std::vector<Candidate> find_candidates(const VertebraModel& model, const Cloud& cloud,
+                                                     std::span<const Point<Vertebra>> targets,
+                                                     double tip_radius_m);
 
 }  // namespace orthonav::nav

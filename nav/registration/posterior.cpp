@@ -220,19 +220,19 @@ double ratio_above(int k) { return kLeastRatio * std::pow(kByRatio, k - 0.5); }
 enum Index : std::size_t { kShare, kTime, kTissue, kLength, kStroke, kModel, kByArea };
 using Node = std::array<int, 7>;
 
-/// An index that means nothing where another one has this value; it then has a value of its own.
+/// An index that means nothing where another one has this value: white noise has no time, no tissue
+/// no length, equal strokes no areas. It is then 0.
 struct Detail {
   std::size_t detail;
   std::size_t of;
   int means_nothing_at;
-  int then;
 };
 constexpr Detail kDetails[] = {
-    {kTime, kShare, kShares - 1, 0}, {kLength, kTissue, 0, 0}, {kByArea, kStroke, 0, 0}};
+    {kTime, kShare, kShares - 1}, {kLength, kTissue, 0}, {kByArea, kStroke, 0}};
 Node canonical(Node node) {
   for (const Detail& d : kDetails) {
     if (node[d.of] == d.means_nothing_at) {
-      node[d.detail] = d.then;
+      node[d.detail] = 0;
     }
   }
   return node;
@@ -274,7 +274,7 @@ double log_prior_of(const Prior& prior, const Node& node, double s_m, double noi
                          (node[kStroke] == 0 ? 1.0 - prior.uneven_hand_share : 0.0);
   const double model =
       mass(node[kModel], [&](double sd_m) { return model_off_by_less(prior, sd_m); });
-  // What is not said of them is equally likely.
+  // Times, lengths and kinds of act, where they mean something, are equally likely.
   const double times = node[kShare] == kShares - 1 ? 1.0 : 2.0 * kTimes;
   const double lengths =
       node[kTissue] == 0 ? 1.0 : 2.0 * static_cast<double>(prior.tissue_lengths_m.size());
@@ -724,7 +724,7 @@ std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, con
     const OverStandoff sized = over_standoff(
         {left(2, 2) - left(1, 2) * left(1, 2) / information + inside_m2,
          left(0, 2) - left(1, 2) * left(0, 1) / information,
-         // Over a flat part a size and a standoff are the same.
+         // Over a flat part the points can't tell a size from a standoff.
          std::max(left(0, 0) - left(0, 1) * left(0, 1) / information, 1e-9 * left(0, 0))},
         freedom, log_prior);
     out.log_size = sized.log_integral + fixed - log_pose + 0.5 * std::log(precision / information);

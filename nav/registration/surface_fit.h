@@ -11,7 +11,7 @@ namespace orthonav::nav {
 struct SurfaceFitOptions {
   int max_iterations = 12;
   double last_step_m = 1e-5;  ///< a shorter step ends the fit
-  double farthest_m = 0.005;  ///< points farther off count as this far, and with weight zero
+  double farthest_m = 0.005;  ///< points farther off count as this far and move nothing
   double tip_radius_m = 0.0;  ///< of the ball at the pointer's end; the points are its centre
   /// Whether a mean height of the tip above the bone (soft tissue, a light hand) is one of the
   /// unknowns: surfaces that face different ways distinguish it from a translation.
