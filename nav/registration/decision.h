@@ -50,19 +50,13 @@ struct Decision {
   double within_99_m = 0.0;
 };
 
-/// A place of the bone to be pressed, and what is then left of the error at the worst target: root
-/// mean square, under the answer, with all that come before it.
-struct PlaceToPress {
-  Point<Vertebra> place;
-  double rms_then_m = 0.0;
-};
-/// The places among `candidates`, which lie on the bone, that take most of the error away, one
-/// after the other. As if the model's error were another at each place.
-[[nodiscard]] std::vector<PlaceToPress> places_to_press(const Posterior& posterior,
-                                                        const BoneSurface& bone, const Prior& prior,
-                                                        std::span<const Point<Vertebra>> targets,
-                                                        std::span<const Point<Vertebra>> candidates,
-                                                        std::size_t count);
+/// The largest error at any target, ascending: 4096 draws, always the same, from a posterior, held
+/// against a pose.
+[[nodiscard]] std::vector<double> errors_m(const Posterior& posterior,
+                                           const Transform<World, Vertebra>& answer,
+                                           std::span<const Point<Vertebra>> targets);
+/// The error below which this share of them lies.
+[[nodiscard]] double quantile_m(const std::vector<double>& ascending_m, double share);
 
 /// Compares all explanations of the points. Refuses points that can't be registered at all: fewer
 /// than 100, not finite, spread too widely, on a line, or such that no pose is found.

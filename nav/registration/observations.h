@@ -19,16 +19,25 @@ struct StrokePoint {
   Vec3 shaft{};         ///< unit, from the tip back along the pointer; zero if not known
 };
 
-/// A place of the bare bone on which the tip was pressed for a moment.
-struct Press {
-  Point<World> tip;
-  double sd_m = 0.0;  ///< of the tip along an axis, by the tracker
+/// A height above the bone that was measured at one place, after the strokes: a press of the tip on
+/// bare bone (`press` in prior.h), or a place of a depth image.
+struct Height {
+  Point<World> at;
+  double mean_m = 0.0;  ///< to be expected
+  double sd_m = 0.0;    ///< of this one alone
+  /// Of what it has in common with others less than 3 mm away: the same tissue is under them.
+  double tissue_sd_m = 0.0;
+  /// Of what it has in common with all others of the same act: all presses, or one image.
+  double act_sd_m = 0.0;
+  int act = 0;
+  /// Unit, World: what is in common shifts the place along it (a sensor's offset along its ray).
+  /// Zero: it is a height.
+  Vec3 along{};
 };
 
-/// Everything that was measured of one bone, in World.
+/// The strokes over one bone, in World.
 struct Observations {
   std::vector<StrokePoint> strokes;
-  std::vector<Press> presses;
   /// SD along an axis of what shifts all of it alike: the tip, the cameras, the sizes of tags.
   double common_sd_m = 0.0;
   /// False where the points come without strokes and times, in any order: nothing is then known of
@@ -48,12 +57,11 @@ struct Observations {
                                     std::span<const double> times_s = {});
 
 /// Consecutive points of a stroke that count as one row; of points in no order, those of one cell
-/// of space; or a press. Depends on places in World only, so that all hypotheses have the same.
+/// of space. Depends on places in World only, so that all hypotheses have the same.
 struct Unit {
-  static constexpr int kPress = -1;
-  int stroke = 0;  ///< or `kPress`
+  int stroke = 0;
   int area = 0;
-  std::vector<std::uint32_t> points;  ///< in `Observations::strokes`, or the press
+  std::vector<std::uint32_t> points;  ///< in `Observations::strokes`
   Vec3 quarter_m;                     ///< World: where its halves lie
   Vec3 three_quarters_m;
   double begin_s = 0.0;

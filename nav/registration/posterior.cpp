@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <queue>
 #include <set>
 
@@ -48,7 +49,6 @@ struct Touches {
     double curvature_1_m = 0.0;
   };
   std::vector<Touch> all;
-  std::vector<Touch> presses;
 };
 
 namespace {
@@ -94,13 +94,6 @@ Touches touches_at(const Observations& observations, const BoneSurface& bone,
     }
     touch.valley_m = shape->valley_m;
     touch.curvature_1_m = shape->curvature_1_m;
-  }
-  for (std::size_t i = 0; i < observations.presses.size(); ++i) {
-    const Vec3 p = (from_world * observations.presses[i].tip).v;
-    const auto place =
-        bone.near(p, before != nullptr ? before->presses[i].nearest_m : bone.place_near(p));
-    out.presses.push_back({p - out.centre_m, place.out, place.nearest_m,
-                           place.distance_m - observations.tip_radius_m});
   }
   return out;
 }
@@ -174,24 +167,20 @@ Hand hand_at(const Observations& observations, const Prior& prior,
         const StrokePoint& a = observations.strokes[block[k]];
         const StrokePoint& b = observations.strokes[block[k + lag]];
         out.lag_s[lag] += (b.time_s - a.time_s) / static_cast<double>(kBlock - lag);
-        out.lag_m[lag] += (b.tip - a.tip).norm() / static_cast<double>(kBlock - lag);
       }
     }
   }
-  out.noise_m = prior.noise_m;
   if (out.blocks > 0.0) {
     products /= out.blocks;
-    out.noise_m = std::max(kLeast_m, std::sqrt(products.trace() / (kBlock - 1)));
     for (std::size_t lag = 1; lag < kBlock; ++lag) {
       out.lag_s[lag] /= out.blocks;
-      out.lag_m[lag] /= out.blocks;
     }
   }
   return out;
 }
 
-// What a height consists of, as columns: pose (6), valley, the bone's shift since the strokes (3),
-// standoff, size, curvature; the height.
+// What a height consists of, as columns: pose (6), valley, the bone's shift since the strokes (3;
+// of strokes where heights are joined with them), standoff, size, curvature; the height.
 constexpr Eigen::Index kValley = 6;
 constexpr Eigen::Index kShift = 7;
 constexpr Eigen::Index kMoved = 10;  ///< how many are integrated whatever else is
@@ -202,19 +191,34 @@ constexpr Eigen::Index kColumns = 14;
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, kColumns>;
 using Products = Eigen::Matrix<double, kColumns, kColumns>;
 
+/// Of a place; without what is of strokes alone.
+Eigen::Matrix<double, 1, kColumns> columns_of(const Touches::Touch& touch, Vec3 centre_m) {
+  const Vec3 turned = touch.lever_m.cross(touch.out) / kLever_m;
+  Eigen::Matrix<double, 1, kColumns> one;
+  one << -touch.out.x, -touch.out.y, -touch.out.z, -turned.x, -turned.y, -turned.z, 0.0, 0.0, 0.0,
+      0.0, 0.0,
+      // Of the place on the surface: the tip's own lever holds the height that it is to explain.
+      (touch.nearest_m - centre_m).dot(touch.out), 0.0, touch.height_m;
+  return one;
+}
+
 // ---------------------------------------------------------------------------------------------
 // The grid, and the prior of a point of it.
 
 constexpr int kShares = 7;
-constexpr int kTimes = 9;
-constexpr int kRatios = 6;
-constexpr double kLeastRatio = 0.12;
-
-constexpr double kByRatio = 2.8;
-/// The SD of number k, of the noise's; each is `kByRatio` times the one before.
-double ratio(int k) { return k == 0 ? 0.0 : kLeastRatio * std::pow(kByRatio, k - 1); }
-/// Between it and the next one.
-double ratio_above(int k) { return kLeastRatio * std::pow(kByRatio, k - 0.5); }
+constexpr int kTimes = 11;
+/// SDs, of the noise's: 0, then each `by` times the one before.
+struct Ratios {
+  int count = 0;
+  double by = 0.0;
+  static constexpr double kLeast = 0.12;
+  [[nodiscard]] double at(int k) const { return k == 0 ? 0.0 : kLeast * std::pow(by, k - 1); }
+  /// Between number k and the next one.
+  [[nodiscard]] double above(int k) const { return kLeast * std::pow(by, k - 0.5); }
+};
+constexpr Ratios kUneven{6, 2.8};
+/// Finer: what presses tell rests on it.
+constexpr Ratios kModelOff{10, 1.673};
 
 /// Indices of what a point of the grid is made of. Even times and lengths are rough, odd smooth.
 enum Index : std::size_t { kShare, kTime, kTissue, kLength, kStroke, kModel, kByArea };
@@ -251,11 +255,11 @@ Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
     out.white = 1.0;
     out.noise = {prior.longest_s, false};
   }
-  out.tissue = ratio(node[kTissue]);
+  out.tissue = kUneven.at(node[kTissue]);
   out.tissue_over = {prior.tissue_lengths_m[static_cast<std::size_t>(node[kLength]) / 2],
                      node[kLength] % 2 == 1};
-  out.stroke = ratio(node[kStroke]);
-  out.model = ratio(node[kModel]);
+  out.stroke = kUneven.at(node[kStroke]);
+  out.model = kModelOff.at(node[kModel]);
   out.by_area = node[kByArea] == 1;
   return out;
 }
@@ -263,17 +267,17 @@ Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
 /// Log prior of a point of the grid, given s and the noise.
 double log_prior_of(const Prior& prior, const Node& node, double s_m, double noise_m) {
   // The mass of a law between this SD and its neighbours.
-  const auto mass = [&](int k, const auto& less) {
-    const double low = k == 0 ? 0.0 : less(ratio_above(k - 1) * noise_m);
-    const double high = k == kRatios - 1 ? 1.0 : less(ratio_above(k) * noise_m);
+  const auto mass = [&](const Ratios& ratios, int k, const auto& less) {
+    const double low = k == 0 ? 0.0 : less(ratios.above(k - 1) * noise_m);
+    const double high = k == ratios.count - 1 ? 1.0 : less(ratios.above(k) * noise_m);
     return std::max(0.0, high - low);
   };
   const auto uneven = [&](double sd_m) { return varies_by_less(prior, sd_m, s_m); };
-  const double tissue = mass(node[kTissue], uneven);
-  const double strokes = prior.uneven_hand_share * mass(node[kStroke], uneven) +
+  const double tissue = mass(kUneven, node[kTissue], uneven);
+  const double strokes = prior.uneven_hand_share * mass(kUneven, node[kStroke], uneven) +
                          (node[kStroke] == 0 ? 1.0 - prior.uneven_hand_share : 0.0);
   const double model =
-      mass(node[kModel], [&](double sd_m) { return model_off_by_less(prior, sd_m); });
+      mass(kModelOff, node[kModel], [&](double sd_m) { return model_off_by_less(prior, sd_m); });
   // Times, lengths and kinds of act, where they mean something, are equally likely.
   const double times = node[kShare] == kShares - 1 ? 1.0 : 2.0 * kTimes;
   const double lengths =
@@ -378,16 +382,8 @@ struct Averaged::Units {
       }
     }
     has_areas = !units.empty() && units.back().area > 0 && units.back().area < units.back().stroke;
-    for (std::size_t k = 0; k < measured.presses.size(); ++k) {
-      const Press& press = measured.presses[k];
-      units.push_back(
-          {Unit::kPress, 0, {static_cast<std::uint32_t>(k)}, press.tip.v, press.tip.v, 0.0, 0.0});
-      // Their errors are known in metres: relative to the noise as far as it is known.
-      const double sd_m = std::hypot(known.press_sd_m, press.sd_m);
-      points.push_back(of.noise_m * of.noise_m / (sd_m * sd_m));
-    }
     if (of.blocks > 0.0) {
-      within = std::max(0.0, of.inliers - static_cast<double>(strokes()));
+      within = std::max(0.0, of.inliers - static_cast<double>(units.size()));
     }
   }
 
@@ -403,13 +399,11 @@ struct Averaged::Units {
   };
   std::map<Node, std::optional<Factor>> factors;
 
-  /// What a unit of the strokes has a height in common with; those of an act stand together.
+  /// What a unit has a height in common with; those of an act stand together.
   [[nodiscard]] int act_of(const Mixture& mix, Eigen::Index k) const {
     const Unit& unit = units[static_cast<std::size_t>(k)];
     return mix.by_area ? unit.area : unit.stroke;
   }
-  /// Presses come last.
-  [[nodiscard]] std::size_t strokes() const { return units.size() - observations.presses.size(); }
 
   template <class Of>
   const Eigen::MatrixXd& kept(std::map<Correlated, Eigen::MatrixXd>& all, const Correlated& key,
@@ -444,32 +438,23 @@ struct Averaged::Units {
     Factor out;
     Eigen::MatrixXd& c = out.root;
     c.setZero(m, m);
-    // The model's error is that of presses too; tissue is beside them.
-    const auto n = static_cast<Eigen::Index>(strokes());
     if (mix.model > 0.0) {
       c += mix.model * mix.model * of_field(model);
     }
     if (mix.tissue > 0.0) {
-      c.topLeftCorner(n, n) +=
-          mix.tissue * mix.tissue * of_field(mix.tissue_over).topLeftCorner(n, n);
+      c += mix.tissue * mix.tissue * of_field(mix.tissue_over);
     }
     if (mix.white < 1.0) {
       c += (1.0 - mix.white) * kept(wandering_noise, mix.noise, [&](const Unit& a, const Unit& b) {
-             const bool together = a.stroke == b.stroke && a.stroke != Unit::kPress;
-             return together ? wandering(a, b, mix.noise) : 0.0;
+             return a.stroke == b.stroke ? wandering(a, b, mix.noise) : 0.0;
            });
     }
-    for (Eigen::Index b = 0; b < n; ++b) {
+    for (Eigen::Index b = 0; b < m; ++b) {
       const auto at = static_cast<std::size_t>(b);
       c(b, b) += mix.white / points[at];
-      for (Eigen::Index a = b; a < n && act_of(mix, a) == act_of(mix, b); ++a) {
+      for (Eigen::Index a = b; a < m && act_of(mix, a) == act_of(mix, b); ++a) {
         c(a, b) += mix.stroke * mix.stroke;
       }
-    }
-    const double gap = prior.press_common_sd_m / hand.noise_m;
-    c.bottomRightCorner(m - n, m - n).array() += gap * gap;
-    for (Eigen::Index b = n; b < m; ++b) {
-      c(b, b) += 1.0 / points[static_cast<std::size_t>(b)];
     }
     // In place: a copy would cost as much again in page faults, since hundreds are kept.
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> in_place(c);
@@ -511,38 +496,20 @@ struct Averaged::Units {
   [[nodiscard]] Columns columns_of(const Touches& t) const {
     const auto m = static_cast<Eigen::Index>(units.size());
     Columns out = Columns::Zero(m, kColumns);
-    const auto n = static_cast<Eigen::Index>(strokes());
-    const auto columns = [&](const Touches::Touch& touch) {
-      const Vec3 turned = touch.lever_m.cross(touch.out) / kLever_m;
-      Eigen::Matrix<double, 1, kColumns> one;
-      one << -touch.out.x, -touch.out.y, -touch.out.z, -turned.x, -turned.y, -turned.z,
-          touch.valley_m, touch.out.x, touch.out.y, touch.out.z, 1.0,
-          // Of the place on the surface: the tip's own lever holds the height that it is to
-          // explain.
-          (touch.nearest_m - t.centre_m).dot(touch.out), touch.curvature_1_m, touch.height_m;
-      return one;
-    };
-    // The pose is that of the last rows.
-    const bool shifts = m > n;
-    for (Eigen::Index k = 0; k < n; ++k) {
+    for (Eigen::Index k = 0; k < m; ++k) {
       for (const std::uint32_t i : units[static_cast<std::size_t>(k)].points) {
-        out.row(k) += hand.belongs[i] / points[static_cast<std::size_t>(k)] * columns(t.all[i]);
+        const Touches::Touch& touch = t.all[i];
+        auto one = posterior::columns_of(touch, t.centre_m);
+        one(kValley) = touch.valley_m;
+        one(kStandoff) = 1.0;
+        one(kCurvature) = touch.curvature_1_m;
+        out.row(k) += hand.belongs[i] / points[static_cast<std::size_t>(k)] * one;
       }
     }
-    if (!shifts) {
-      out.middleCols<3>(kShift).setZero();
-    }
     // How deep valleys are has mean 0 and SD 1.
-    auto valley = out.col(kValley).head(n);
+    auto valley = out.col(kValley);
     valley.array() -= valley.mean();
-    valley /= std::max(1e-9, std::sqrt(valley.squaredNorm() / static_cast<double>(n)));
-    for (Eigen::Index k = n; k < m; ++k) {
-      // Neither tissue nor scatter is under a press.
-      out.row(k) = columns(t.presses[static_cast<std::size_t>(k - n)]);
-      out.row(k).segment<3>(kShift).setZero();
-      out(k, kValley) = out(k, kStandoff) = out(k, kCurvature) = 0.0;
-      out(k, kHeight) -= prior.press_gap_m;
-    }
+    valley /= std::max(1e-9, std::sqrt(valley.squaredNorm() / static_cast<double>(m)));
     return out;
   }
 };
@@ -634,36 +601,50 @@ OverStandoff over_standoff(const Squares& squares, double freedom,
   return out;
 }
 
-namespace {
+/// What the evidence of a point of the grid rests on.
+struct Basis {
+  Node node{};
+  Mixture of;
+  Products rows;                 ///< of the whitened columns
+  double dimensions = 0.0;       ///< how many rows, and deviations within blocks
+  double inside_m2 = 0.0;        ///< squares of the deviations, whitened
+  double log_determinant = 0.0;  ///< of all covariances
+  double log_outliers = 0.0;
+  double common_sd_m = 0.0;
+};
 
 /// What a point of the grid says of the heights at a pose.
 struct Answer {
   Part part;
   double log_weight = kNever;              ///< evidence and prior, the pose integrated
   Eigen::Matrix<double, kMoved, 1> moved;  ///< mean of the columns that are integrated
+  /// Covariance of these, and of the standoff behind them, m^2.
+  Eigen::Matrix<double, kMoved + 1, kMoved + 1> spread_m2;
+  double lifts_m2 = 0.0;  ///< what scatter takes off a height, by curvature
   // Where all is asked for:
   double log_here = kNever;  ///< the pose being the one that the heights are of
   double log_size = kNever;  ///< the pose and the size integrated
   double size = 0.0, size_variance = 0.0;
 };
 
+namespace {
+
 enum class Asked : std::uint8_t { kWeight, kAll };
 
-std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, const Node& node,
-                             Asked asked) {
-  const Prior& prior = units.prior;
-  const auto& factor = units.factor(node);
-  if (!factor) {
-    return std::nullopt;
-  }
-  const Columns whitened = factor->root.triangularView<Eigen::Lower>().solve(columns);
-  Products all = whitened.transpose() * whitened;
+/// From the columns' units to a step's: m and rad.
+Vector6 step_scale() {
+  Vector6 scale;
+  scale << 1.0, 1.0, 1.0, 1.0 / kLever_m, 1.0 / kLever_m, 1.0 / kLever_m;
+  return scale;
+}
+
+/// `shift`: SD of the bone's shift since the strokes, of the noise's SD.
+std::optional<Answer> concluded(const Prior& prior, const Basis& basis, double shift, Asked asked) {
+  Products all = basis.rows;
   // Tissue that is thick in valleys, by an unknown amount of the size of its unevenness.
-  const Mixture mix = mixture(node, prior, units.observations.in_time);
   constexpr double kNone = 1e-6;
-  const double valley = std::max(kNone, mix.tissue);
+  const double valley = std::max(kNone, basis.of.tissue);
   all(kValley, kValley) += 1.0 / (valley * valley);
-  const double shift = prior.moved_sd_m / units.hand.noise_m;
   all.diagonal().segment<3>(kShift).array() += 1.0 / (shift * shift);
   using Moved = Eigen::Matrix<double, kMoved, kMoved>;
   const Eigen::LLT<Moved> llt(all.topLeftCorner<kMoved, kMoved>());
@@ -679,8 +660,8 @@ std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, con
   const Eigen::Matrix<double, kMoved, 4> solved_four = llt.solve(all.topRightCorner<kMoved, 4>());
   const Eigen::Matrix4d left_four =
       all.bottomRightCorner<4, 4>() - all.topRightCorner<kMoved, 4>().transpose() * solved_four;
-  const double inside_m2 = units.within * factor->quadratic_within_m2;
-  const double dimensions = static_cast<double>(units.units.size()) + units.within;
+  const double inside_m2 = basis.inside_m2;
+  const double dimensions = basis.dimensions;
   const double freedom = dimensions - 6.0;
   if (!(freedom > 1.0) || !(left_four(0, 0) > 0.0)) {
     return std::nullopt;
@@ -696,11 +677,9 @@ std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, con
   const Eigen::Matrix<double, kMoved, 3> solved = solved_four * kept;
 
   const auto log_prior = [&](double s_m, double noise_m) {
-    return log_density_of_standoff(prior, s_m) + log_prior_of(prior, node, s_m, noise_m);
+    return log_density_of_standoff(prior, s_m) + log_prior_of(prior, basis.node, s_m, noise_m);
   };
-  const double fixed = -0.5 * factor->log_determinant -
-                       0.5 * units.within * factor->log_determinant_within +
-                       units.hand.log_outliers;
+  const double fixed = basis.log_outliers - 0.5 * basis.log_determinant;
   const double log_nuisance = std::log(valley) + 3.0 * std::log(shift);
   const double log_pose = llt.matrixLLT().diagonal().array().log().sum() + log_nuisance;
   const OverStandoff over =
@@ -733,26 +712,48 @@ std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, con
     out.size_variance =
         sized.noise_m2 / information + sized.variance_m2 * by_standoff * by_standoff;
   }
-  out.part.of = mix;
+  out.part.of = basis.of;
   out.part.noise_m = std::sqrt(over.noise_m2);
   out.part.standoff_m = over.mean_m;
   out.moved = solved.col(2) - over.mean_m * solved.col(0);
-  Vector6 scale;
-  scale << 1.0, 1.0, 1.0, 1.0 / kLever_m, 1.0 / kLever_m, 1.0 / kLever_m;
-  const Vector6 by_standoff = scale.asDiagonal() * solved.col(0).head<6>();
-  const Matrix6 inverse = llt.solve(Moved::Identity()).topLeftCorner<6, 6>();
+  out.lifts_m2 = lifts_m2;
+  Eigen::Matrix<double, kMoved + 1, 1> by_standoff;
+  by_standoff << -solved.col(0), 1.0;
+  out.spread_m2 = over.variance_m2 * by_standoff * by_standoff.transpose();
+  out.spread_m2.topLeftCorner<kMoved, kMoved>() += over.noise_m2 * llt.solve(Moved::Identity());
   Eigen::Map<Vector6> step(out.part.step.data());
-  step = scale.asDiagonal() * out.moved.head<6>();
+  step = step_scale().asDiagonal() * out.moved.head<6>();
   Eigen::Map<Rows6> covariance(out.part.covariance.data());
-  covariance = over.noise_m2 * (scale.asDiagonal() * inverse * scale.asDiagonal()) +
-               over.variance_m2 * by_standoff * by_standoff.transpose();
+  covariance =
+      step_scale().asDiagonal() * out.spread_m2.topLeftCorner<6, 6>() * step_scale().asDiagonal();
   // What shifts all points alike shifts the pose, and nothing else.
-  const double common_m = units.observations.common_sd_m;
-  covariance.diagonal().head<3>().array() += common_m * common_m;
+  covariance.diagonal().head<3>().array() += basis.common_sd_m * basis.common_sd_m;
   if (!std::isfinite(out.log_weight) || !step.allFinite()) {
     return std::nullopt;
   }
   return out;
+}
+
+Basis basis_of(Averaged::Units& units, const Averaged::Units::Factor& factor,
+               const Columns& whitened, const Node& node) {
+  return {node,
+          mixture(node, units.prior, units.observations.in_time),
+          whitened.transpose() * whitened,
+          static_cast<double>(units.units.size()) + units.within,
+          units.within * factor.quadratic_within_m2,
+          factor.log_determinant + units.within * factor.log_determinant_within,
+          units.hand.log_outliers,
+          units.observations.common_sd_m};
+}
+
+std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, const Node& node,
+                             Asked asked) {
+  const auto& factor = units.factor(node);
+  if (!factor) {
+    return std::nullopt;
+  }
+  const Columns whitened = factor->root.triangularView<Eigen::Lower>().solve(columns);
+  return concluded(units.prior, basis_of(units, *factor, whitened, node), 1.0, asked);
 }
 
 /// Points of the grid with their answers.
@@ -769,12 +770,9 @@ double most_of(const Answers& answers) {
 /// How many values each index of a point of the grid has.
 Node size_of_grid(const Averaged::Units& units) {
   const bool in_time = units.observations.in_time;
-  return {in_time ? kShares : 1,
-          in_time ? 2 * kTimes : 1,
-          kRatios,
-          2 * static_cast<int>(units.prior.tissue_lengths_m.size()),
-          kRatios,
-          kRatios,
+  return {in_time ? kShares : 1,  in_time ? 2 * kTimes : 1,
+          kUneven.count,          2 * static_cast<int>(units.prior.tissue_lengths_m.size()),
+          kUneven.count,          kModelOff.count,
           units.has_areas ? 2 : 1};
 }
 
@@ -837,13 +835,13 @@ std::vector<Node> scattered(const Node& size) {
       out.push_back(even);
       for (const std::size_t uneven : {kTissue, kStroke, kModel}) {
         out.push_back(even);
-        out.back()[uneven] = 2;
+        out.back()[uneven] = uneven == kModel ? 3 : 2;
         if (uneven == kTissue) {
           out.back()[kLength] = 3;
         }
       }
       out.push_back(even);
-      out.back()[kModel] = 4;  // where it is known to be off by more than the noise
+      out.back()[kModel] = 7;  // where it is known to be off by more than the noise
       if (size[kByArea] > 1) {
         out.push_back(even);
         out.back()[kStroke] = 2;
@@ -999,8 +997,7 @@ std::vector<EstimatedHeight> heights_of(Averaged::Units& units, const Touches& t
                                         const Answers& likeliest_first) {
   constexpr std::size_t kFew = 3;  // the others would not change the picture
   const Columns columns = units.columns_of(t);
-  const auto m = columns.rows();
-  const auto n = static_cast<Eigen::Index>(units.strokes());
+  const auto n = columns.rows();
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(n);
   double sum = 0.0;
   for (const auto& [node, a] :
@@ -1013,19 +1010,14 @@ std::vector<EstimatedHeight> heights_of(Averaged::Units& units, const Touches& t
     const auto root = factor->root.triangularView<Eigen::Lower>();
     const Eigen::VectorXd solved = root.adjoint().solve(root.solve(left));
     // What the covariance of the fields, and of the strokes' own heights, makes of what is left.
-    Eigen::VectorXd fields = Eigen::VectorXd::Zero(m);
-    const auto add = [&](double sd, const Correlated& field, Eigen::Index rows) {
+    Eigen::VectorXd fields = Eigen::VectorXd::Zero(n);
+    const auto add = [&](double sd, const Correlated& field) {
       if (sd > 0.0) {
-        fields.head(n) += sd * sd *
-                          (units.of_field(field).selfadjointView<Eigen::Lower>() *
-                           Eigen::VectorXd((Eigen::VectorXd(m) << solved.head(rows),
-                                            Eigen::VectorXd::Zero(m - rows))
-                                               .finished()))
-                              .head(n);
+        fields += sd * sd * (units.of_field(field).selfadjointView<Eigen::Lower>() * solved);
       }
     };
-    add(of.tissue, of.tissue_over, n);
-    add(of.model, {units.prior.model_length_m, true}, m);
+    add(of.tissue, of.tissue_over);
+    add(of.model, {units.prior.model_length_m, true});
     std::map<int, double> of_act;
     for (Eigen::Index k = 0; k < n; ++k) {
       of_act[units.act_of(of, k)] += solved(k);
@@ -1042,6 +1034,45 @@ std::vector<EstimatedHeight> heights_of(Averaged::Units& units, const Touches& t
     const Unit& unit = units.units[static_cast<std::size_t>(k)];
     out.push_back({t.from_world * Point<World>{0.5 * (unit.quarter_m + unit.three_quarters_m)},
                    mean(k) / sum});
+  }
+  return out;
+}
+
+}  // namespace
+
+struct Strokes {
+  Prior prior;
+  Touches at;  ///< the pose that the columns are of; no points
+  Hand hand;
+  double tip_radius_m = 0.0;
+  std::vector<Unit> units;  ///< their places
+  struct AtNode {
+    Basis basis;
+    double noise_m = 0.0;
+    Eigen::MatrixXd root;
+    Columns whitened;
+  };
+  std::vector<AtNode> nodes;  ///< the likeliest first
+};
+
+namespace {
+
+std::shared_ptr<const Strokes> kept_of(Averaged::Units& units, const Touches& t,
+                                       const Answers& answers) {
+  auto out = std::make_shared<Strokes>();
+  out->prior = units.prior;
+  out->at = {t.from_world, t.centre_m, {}};
+  out->hand = units.hand;
+  out->tip_radius_m = units.observations.tip_radius_m;
+  out->units = units.units;
+  const Columns columns = units.columns_of(t);
+  for (const auto& [node, a] : answers) {
+    const auto& factor = units.factor(node);
+    Columns whitened = factor->root.triangularView<Eigen::Lower>().solve(columns);
+    // The bone's shift until the heights takes the strokes along.
+    whitened.middleCols<3>(kShift) = -whitened.leftCols<3>();
+    const Basis basis = basis_of(units, *factor, whitened, node);
+    out->nodes.push_back({basis, a.part.noise_m, factor->root, std::move(whitened)});
   }
   return out;
 }
@@ -1141,11 +1172,340 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   }
   sort_by_weight(answers);
   std::vector<EstimatedHeight> heights;
+  std::shared_ptr<const Strokes> strokes;
   if (full && told_here) {
     heights = heights_of(units, here, answers);
+    strokes = kept_of(units, here, answers);
   }
   Posterior out = assembled(here, shared->hand(), answers);
   out.heights = std::move(heights);
+  out.strokes = std::move(strokes);
+  return out;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Heights that are measured after the strokes: rows of the same Gaussian, whose covariance with the
+// strokes is the model's error. What the strokes explain of them is taken off (the Schur
+// complement), so that each costs little.
+
+namespace {
+
+Touches::Touch touch_at(const Height& height, const Strokes& strokes, const BoneSurface& bone,
+                        const Transform<Vertebra, World>& from_world, Vec3 centre_m) {
+  const Vec3 p = (from_world * height.at).v;
+  Touches::Touch out;
+  if (p.is_finite()) {
+    const auto place = bone.near(p, bone.place_near(p));
+    out.lever_m = p - centre_m;
+    out.out = place.out;
+    out.nearest_m = place.nearest_m;
+    out.height_m = place.distance_m - strokes.tip_radius_m - height.mean_m;
+  } else {
+    out.height_m = std::numeric_limits<double>::quiet_NaN();
+  }
+  return out;
+}
+
+Unit unit_of(const Height& height) { return {0, 0, {}, height.at.v, height.at.v, 0.0, 0.0}; }
+
+/// Covariance of what two heights have in common apart from the model's error. `out`: unit, World,
+/// away from the bone there.
+double in_common_m2(const Height& a, Vec3 out_a, const Height& b, Vec3 out_b) {
+  constexpr double kSameTissue_m = 0.003;
+  const auto share = [](const Height& h, Vec3 out) {
+    return h.act_sd_m * (h.along.squared_norm() > 0.0 ? h.along.dot(out) : 1.0);
+  };
+  return a.tissue_sd_m * b.tissue_sd_m * std::exp(-(a.at - b.at).norm() / kSameTissue_m) +
+         (a.act == b.act ? share(a, out_a) * share(b, out_b) : 0.0);
+}
+
+}  // namespace
+
+/// Heights at a point of the grid, relative to its noise.
+struct AtHeights {
+  Eigen::MatrixXd by_strokes;  ///< whitened covariance of the strokes' rows with them
+  Eigen::MatrixXd root;        ///< Cholesky's, of their covariance under the strokes
+  Columns whitened;            ///< less what the strokes explain
+};
+
+struct Joined::Likeliest {
+  std::shared_ptr<const Strokes> strokes;
+  std::vector<Height> heights;
+  std::vector<Vec3> out;  ///< of each, unit, World
+  Touches at;
+  struct Node {
+    std::size_t number = 0;
+    AtHeights rows;
+    Answer answer;
+  };
+  std::vector<Node> nodes;
+};
+
+namespace {
+
+/// Mean correlation of the model's error between the strokes' units, or other heights, and heights.
+Eigen::MatrixXd model_error(const Strokes& strokes, std::span<const Unit> of,
+                            std::span<const Height> heights) {
+  Eigen::MatrixXd out(of.size(), heights.size());
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    const Unit height = unit_of(heights[k]);
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      out(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          between(of[i], height, {strokes.prior.model_length_m, true});
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::shared_ptr<const Strokes> told_by(const Transform<World, Vertebra>& world_from_vertebra,
+                                       Vec3 centre_m, const std::array<double, 36>& covariance) {
+  constexpr double kFloor_m = 1e-5;   // what counts as exact
+  constexpr double kNoise_m = 0.001;  // the unit of all SDs, and known
+  constexpr double kKnown = 1e4;
+  auto out = std::make_shared<Strokes>();
+  out->at = {world_from_vertebra.inverse(), centre_m, {}};
+  const Vector6 in_columns = step_scale().cwiseInverse();
+  Matrix6 pose = in_columns.asDiagonal() * Eigen::Map<const Rows6>(covariance.data()) *
+                 in_columns.asDiagonal();
+  pose.diagonal().array() += kFloor_m * kFloor_m;
+  const Matrix6 information = kNoise_m * kNoise_m * pose.inverse();
+  Products rows = Products::Zero();
+  rows.topLeftCorner<6, 6>() = information;
+  rows.block<3, 6>(kShift, 0) = -information.topRows<3>();
+  rows.block<6, 3>(0, kShift) = -information.leftCols<3>();
+  rows.block<3, 3>(kShift, kShift) = information.topLeftCorner<3, 3>();
+  rows(kStandoff, kStandoff) = 1.0;
+  for (int k = 0; k < kModelOff.count; ++k) {
+    Mixture of;
+    of.white = 1.0;
+    of.model = kModelOff.at(k);
+    out->nodes.push_back({{{kShares - 1, 0, 0, 0, 0, k, 0},
+                           of,
+                           rows,
+                           kKnown,
+                           kKnown * kNoise_m * kNoise_m,
+                           0.0,
+                           0.0,
+                           0.0},
+                          kNoise_m,
+                          {},
+                          Columns(0, kColumns)});
+  }
+  return out;
+}
+
+std::optional<Joined> joined(const std::shared_ptr<const Strokes>& strokes, const BoneSurface& bone,
+                             std::span<const Height> heights, double moved_sd_m) {
+  constexpr int kMostRounds = 6;
+  constexpr double kStands_m = 1e-6;
+  const auto n = static_cast<Eigen::Index>(heights.size());
+  const auto index = [](Eigen::Index i) { return static_cast<std::size_t>(i); };
+  auto likeliest = std::make_shared<Joined::Likeliest>();
+  likeliest->strokes = strokes;
+  likeliest->heights.assign(heights.begin(), heights.end());
+  const auto to_world = strokes->at.from_world.inverse();
+  std::vector<Unit> units;
+  for (const Height& height : heights) {
+    units.push_back(unit_of(height));
+    likeliest->out.push_back(
+        to_world.rotation() *
+        touch_at(height, *strokes, bone, strokes->at.from_world, strokes->at.centre_m).out);
+  }
+  // Covariances depend on places in World alone, and on directions that a step hardly turns.
+  const Eigen::MatrixXd with_strokes = model_error(*strokes, strokes->units, heights);
+  const Eigen::MatrixXd with_heights = model_error(*strokes, units, heights);
+  Eigen::MatrixXd own_m2(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index k = 0; k < n; ++k) {
+      own_m2(i, k) = in_common_m2(heights[index(i)], likeliest->out[index(i)], heights[index(k)],
+                                  likeliest->out[index(k)]);
+    }
+    own_m2(i, i) += heights[index(i)].sd_m * heights[index(i)].sd_m;
+  }
+  std::vector<AtHeights> at_nodes;
+  for (const Strokes::AtNode& node : strokes->nodes) {
+    const double model_2 = node.basis.of.model * node.basis.of.model;
+    AtHeights& at = at_nodes.emplace_back();
+    at.by_strokes = node.root.triangularView<Eigen::Lower>().solve(model_2 * with_strokes);
+    Eigen::MatrixXd left = model_2 * with_heights + own_m2 / (node.noise_m * node.noise_m);
+    left -= at.by_strokes.transpose() * at.by_strokes;
+    const Eigen::LLT<Eigen::MatrixXd> llt(left);
+    if (llt.info() != Eigen::Success) {
+      return std::nullopt;
+    }
+    at.root = llt.matrixL();
+  }
+  Vector6 step = Vector6::Zero();  // of the points, m and rad
+  std::vector<std::size_t> node_of;
+  const auto answers_here = [&](Asked asked) {
+    const auto from_world = stepped(strokes->at, step);
+    const Vec3 centre_m = strokes->at.centre_m + Vec3{step(0), step(1), step(2)};
+    const Vector6 moved = step_scale().cwiseInverse().asDiagonal() * step;
+    Columns columns(n, kColumns);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto touch = touch_at(heights[index(i)], *strokes, bone, from_world, centre_m);
+      columns.row(i) = columns_of(touch, centre_m);
+      // As seen from the pose that the strokes' columns are of.
+      columns(i, kHeight) += columns.row(i).head<6>() * moved;
+    }
+    Answers out;
+    node_of.clear();
+    for (std::size_t k = 0; k < at_nodes.size(); ++k) {
+      const Strokes::AtNode& node = strokes->nodes[k];
+      AtHeights& at = at_nodes[k];
+      at.whitened = at.root.triangularView<Eigen::Lower>().solve(
+          columns - at.by_strokes.transpose() * node.whitened);
+      Basis basis = node.basis;
+      basis.rows += at.whitened.transpose() * at.whitened;
+      basis.dimensions += static_cast<double>(n);
+      basis.log_determinant += 2.0 * at.root.diagonal().array().log().sum();
+      if (auto found = concluded(strokes->prior, basis, moved_sd_m / node.noise_m, asked)) {
+        out.emplace_back(basis.node, *found);
+        node_of.push_back(k);
+      }
+    }
+    return out;
+  };
+  for (int round = 0; round < kMostRounds; ++round) {
+    const Answers answers = answers_here(Asked::kWeight);
+    if (answers.empty()) {
+      return std::nullopt;
+    }
+    const Vector6 off = mean_step(answers) - step;
+    step += off;
+    if (off.head<3>().norm() < kStands_m && kLever_m * off.tail<3>().norm() < kStands_m) {
+      break;
+    }
+  }
+  Answers answers = answers_here(Asked::kAll);
+  if (answers.empty()) {
+    return std::nullopt;
+  }
+  Joined out;
+  // Each against all others, weighed by what those say.
+  for (Eigen::Index i = 0; i < n; ++i) {
+    struct Off {
+      double m = 0.0, m2 = 0.0, log_weight = 0.0;
+    };
+    std::vector<Off> offs;
+    double most = kNever;
+    for (std::size_t k = 0; k < answers.size(); ++k) {
+      const Answer& a = answers[k].second;
+      const AtHeights& at = at_nodes[node_of[k]];
+      const double noise_m2 = a.part.noise_m * a.part.noise_m;
+      Eigen::Matrix<double, Eigen::Dynamic, kMoved + 1> moves(n, kMoved + 1);
+      moves << at.whitened.leftCols<kMoved>(), at.whitened.col(kStandoff);
+      Eigen::Matrix<double, kMoved + 1, 1> moved;
+      moved << a.moved, a.part.standoff_m;
+      const Eigen::VectorXd left =
+          at.whitened.col(kHeight) - a.lifts_m2 * at.whitened.col(kCurvature) - moves * moved;
+      const Eigen::VectorXd to =
+          at.root.triangularView<Eigen::Lower>().solve(Eigen::VectorXd::Unit(n, i));
+      const double precision =
+          to.squaredNorm() -
+          (moves.transpose() * to).dot(a.spread_m2 * (moves.transpose() * to)) / noise_m2;
+      Off off{to.dot(left) / precision, noise_m2 / precision, 0.0};
+      off.log_weight = a.log_weight + 0.5 * off.m * off.m / off.m2 + 0.5 * std::log(off.m2);
+      most = std::max(most, off.log_weight);
+      offs.push_back(off);
+    }
+    double sum = 0.0, mean_m = 0.0, square_m2 = 0.0;
+    for (const Off& off : offs) {
+      const double p = std::exp(off.log_weight - most);
+      sum += p;
+      mean_m += p * off.m;
+      square_m2 += p * (off.m2 + off.m * off.m);
+    }
+    out.off_m.push_back(mean_m / sum);
+    out.off_sd_m.push_back(std::sqrt(square_m2 / sum - std::pow(mean_m / sum, 2)));
+  }
+  likeliest->at = {
+      stepped(strokes->at, step), strokes->at.centre_m + Vec3{step(0), step(1), step(2)}, {}};
+  std::vector<std::size_t> order(answers.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return answers[a].second.log_weight > answers[b].second.log_weight;
+  });
+  constexpr std::size_t kFew = 4;
+  for (const std::size_t k : std::span(order).first(std::min(kFew, order.size()))) {
+    likeliest->nodes.push_back({node_of[k], std::move(at_nodes[node_of[k]]), answers[k].second});
+  }
+  out.likeliest = likeliest;
+  sort_by_weight(answers);
+  out.posterior = assembled(strokes->at, strokes->hand, answers);
+  double model_m2 = 0.0;
+  for (const Part& part : out.posterior.parts) {
+    model_m2 += part.weight * std::pow(part.noise_m * part.of.model, 2);
+  }
+  out.model_sd_m = std::sqrt(model_m2);
+  return out.posterior.world_from_vertebra.translation().is_finite() ? std::optional(out)
+                                                                     : std::nullopt;
+}
+
+Joined::Foreseen Joined::foreseen(const BoneSurface& bone, std::span<const Height> next) const {
+  const Strokes& strokes = *likeliest->strokes;
+  std::vector<Unit> units;
+  for (const Height& height : likeliest->heights) {
+    units.push_back(unit_of(height));
+  }
+  const Eigen::MatrixXd model_with_strokes = model_error(strokes, strokes.units, next);
+  const Eigen::MatrixXd model_with_heights = model_error(strokes, units, next);
+  Eigen::MatrixXd common_m2(units.size(), next.size());
+  Eigen::VectorXd own_m2(next.size());
+  Columns at(next.size(), kColumns);
+  const auto to_world = likeliest->at.from_world.inverse();
+  for (std::size_t k = 0; k < next.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    const auto touch =
+        touch_at(next[k], strokes, bone, likeliest->at.from_world, likeliest->at.centre_m);
+    const Vec3 out = to_world.rotation() * touch.out;
+    at.row(row) = columns_of(touch, likeliest->at.centre_m);
+    own_m2(row) = in_common_m2(next[k], out, next[k], out) + next[k].sd_m * next[k].sd_m;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      common_m2(static_cast<Eigen::Index>(i), row) =
+          in_common_m2(likeliest->heights[i], likeliest->out[i], next[k], out);
+    }
+  }
+  Matrix6 now = Matrix6::Zero();
+  std::vector<Matrix6> then(next.size(), Matrix6::Zero());
+  double sum = 0.0;
+  for (const Likeliest::Node& of : likeliest->nodes) {
+    const double p = std::exp(of.answer.log_weight - likeliest->nodes.front().answer.log_weight);
+    sum += p;
+    const Strokes::AtNode& node = strokes.nodes[of.number];
+    const double noise_m2 = node.noise_m * node.noise_m;
+    const double model_2 = node.basis.of.model * node.basis.of.model;
+    const Eigen::MatrixXd with_strokes =
+        node.root.triangularView<Eigen::Lower>().solve(model_2 * model_with_strokes);
+    const Eigen::MatrixXd with_heights = of.rows.root.triangularView<Eigen::Lower>().solve(
+        model_2 * model_with_heights + common_m2 / noise_m2 -
+        of.rows.by_strokes.transpose() * with_strokes);
+    const Columns left =
+        at - with_strokes.transpose() * node.whitened - with_heights.transpose() * of.rows.whitened;
+    now += p * of.answer.spread_m2.topLeftCorner<6, 6>();
+    for (Eigen::Index k = 0; k < left.rows(); ++k) {
+      Eigen::Matrix<double, kMoved + 1, 1> moves;
+      moves << left.row(k).head<kMoved>().transpose(), left(k, kStandoff);
+      const Eigen::Matrix<double, kMoved + 1, 1> with = of.answer.spread_m2 * moves;
+      const double alone_m2 = own_m2(k) + noise_m2 * (model_2 - with_strokes.col(k).squaredNorm() -
+                                                      with_heights.col(k).squaredNorm());
+      then[static_cast<std::size_t>(k)] +=
+          p * (of.answer.spread_m2.topLeftCorner<6, 6>() -
+               with.head<6>() * with.head<6>().transpose() / (alone_m2 + moves.dot(with)));
+    }
+  }
+  const auto scaled = [&](const Matrix6& covariance) {
+    std::array<double, 36> out{};
+    Eigen::Map<Rows6>(out.data()) =
+        step_scale().asDiagonal() * (covariance / sum) * step_scale().asDiagonal();
+    return out;
+  };
+  Foreseen out{scaled(now), {}};
+  for (const Matrix6& covariance : then) {
+    out.then.push_back(scaled(covariance));
+  }
   return out;
 }
 

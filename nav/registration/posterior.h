@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "nav/registration/bone_surface.h"
@@ -26,8 +27,10 @@ namespace orthonav::nav::posterior {
 // (Ornstein-Uhlenbeck). Or the point has nothing to do with the bone, and d is anything within a
 // range.
 //
-// Of a press, d is a gap in place of s, and f. The bone may have moved in World since the strokes;
-// the pose is that under the presses. What shifts strokes and presses alike adds to its covariance.
+// Of a height that is measured later, a press or a place of a depth image, d is what is to be
+// expected there in place of s, and f, the same field as of the strokes. The bone may have moved in
+// World meanwhile; the pose is then that under the heights. What shifts all alike adds to its
+// covariance.
 //
 // Points are averaged over some 160 units of their strokes, whose heights are the rows. How points
 // deviate from the mean of the block of eight that they are in tells of the noise from point to
@@ -73,12 +76,10 @@ struct Hand {
   std::array<double, kBlock * kBlock> products_m2{};  ///< mean, symmetric
   double blocks = 0.0;
   std::array<double, kBlock> lag_s{};  ///< mean time between points, by how many lie between
-  std::array<double, kBlock> lag_m{};  ///< and mean distance
   std::vector<double> belongs;         ///< of each point, the probability that it is of the bone
   double inliers = 0.0;                ///< their sum
   double log_outliers = 0.0;           ///< of the points as members of the bone, or not
   double spread_m = 0.0;               ///< SD of the members' heights altogether
-  double noise_m = 0.0;                ///< SD of a point about the bone, as far as it is known
 };
 
 /// The points averaged over units, under a hand, with the covariances at every point of the grid
@@ -103,6 +104,9 @@ class Averaged {
   std::unique_ptr<Units> all_;
 };
 
+/// The strokes at every point of the grid that has weight, for heights to be joined with them.
+struct Strokes;
+
 /// The posterior of the pose under one hypothesis, as a mixture of Gaussians.
 struct Posterior {
   Transform<World, Vertebra> world_from_vertebra;  ///< at its mean
@@ -123,6 +127,7 @@ struct Posterior {
   /// How high the tip was along the strokes, without noise; where it was asked for in full and
   /// nothing was shared.
   std::vector<EstimatedHeight> heights;
+  std::shared_ptr<const Strokes> strokes;  ///< likewise
   Hand hand;
 };
 
@@ -158,5 +163,38 @@ enum class Effort : std::uint8_t { kRough, kFull };
     const Observations& observations, const BoneSurface& bone, const Prior& prior,
     const Transform<World, Vertebra>& start, Effort effort, std::unique_ptr<Averaged>& shared,
     double least = -std::numeric_limits<double>::infinity());
+
+/// What stands for strokes of which only pose and covariance (of the points' step, as in `Part`)
+/// are known.
+[[nodiscard]] std::shared_ptr<const Strokes> told_by(
+    const Transform<World, Vertebra>& world_from_vertebra, Vec3 centre_m,
+    const std::array<double, 36>& covariance);
+
+/// The posterior of strokes and of heights that were measured after them.
+struct Joined {
+  Posterior posterior;
+  /// Of each height: how far it is from what strokes and all other heights predict, and the SD of
+  /// that, by what they tell of the model's error without it.
+  std::vector<double> off_m;
+  std::vector<double> off_sd_m;
+  double model_sd_m = 0.0;  ///< root mean square SD of the model's error
+
+  /// The covariance of the pose if each of these were measured next, by the likeliest points of the
+  /// grid; `now` of it without them.
+  struct Foreseen {
+    std::array<double, 36> now{};
+    std::vector<std::array<double, 36>> then;
+  };
+  [[nodiscard]] Foreseen foreseen(const BoneSurface& bone, std::span<const Height> next) const;
+
+  struct Likeliest;
+  std::shared_ptr<const Likeliest> likeliest;
+};
+
+/// `moved_sd_m`: SD along each axis of the bone's motion in World between strokes and heights.
+/// Without heights, the strokes' own posterior and that motion. Empty where a number is not finite.
+[[nodiscard]] std::optional<Joined> joined(const std::shared_ptr<const Strokes>& strokes,
+                                           const BoneSurface& bone, std::span<const Height> heights,
+                                           double moved_sd_m);
 
 }  // namespace orthonav::nav::posterior

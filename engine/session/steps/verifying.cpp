@@ -9,7 +9,6 @@
 #include "base/translation.h"
 #include "engine/session/text/wording.h"
 #include "nav/guidance/predicted_error.h"
-#include "nav/registration/press_fit.h"
 #include "nav/registration/unstroked_surface.h"
 
 namespace orthonav::engine {
@@ -92,16 +91,11 @@ void Verifying::judge(LevelState& level) {
   joined_.reset();
   next_.reset();
   const nav::VertebraModel& model = *level.plan.model;
-  const nav::PressModel press = press_model();
-  const auto fit = by_touch_ && !pressed_.empty()
-                       ? nav::fit_presses(model, *strokes_, pressed_, press)
-                       : std::nullopt;
-  if (fit) {
-    joined_ = nav::join_places(model, *strokes_, *fit, press, limits_);
+  if (by_touch_ && !pressed_.empty()) {
+    joined_ = nav::join_places(model, *strokes_, pressed_, limits_, motion_of_world());
   }
   if (joined_) {
-    next_ =
-        nav::place_to_press(model, *strokes_, level.newest->points, pressed_, *fit, press, limits_);
+    next_ = nav::place_to_press(model, *joined_, level.newest->points, pressed_, limits_);
   }
   if (strokes_->provisional) {
     // The registration includes the touched places, so it is shown with them.
@@ -120,23 +114,14 @@ void Verifying::judge(LevelState& level) {
   propose(level);
 }
 
-nav::PressModel Verifying::press_model() const {
-  nav::PressModel press;
-  if (anchored_) {
-    press.moved_sd_m = std::max(press.moved_sd_m, strokes_->common.map_m);
-    press.drift_m_per_sqrt_s = options_.map_drift_m_per_sqrt_s;
-    return press;
-  }
-  press.model = nav::ModelError{};
-  press.left_out = nav::ModelError{nav::kUsualModelError_m};
-  if (!pressed_.empty()) {
-    const double first_s = pressed_.front().time_s;
-    const double drift = options_.map_drift_m_per_sqrt_s;
-    press.moved_sd_m =
-        std::max(press.moved_sd_m, std::hypot(strokes_->common.map_m, drift * std::sqrt(first_s)));
-    press.since_sd_m = drift * std::sqrt(std::max(0.0, pressed_.back().time_s - first_s));
-  }
-  return press;
+nav::MotionOfWorld Verifying::motion_of_world() const {
+  const double first_s = pressed_.front().time_s;
+  const double drift = options_.map_drift_m_per_sqrt_s;  // 0 with a patient reference
+  nav::MotionOfWorld out;
+  out.before_m =
+      std::max(out.before_m, std::hypot(strokes_->common.map_m, drift * std::sqrt(first_s)));
+  out.since_m = drift * std::sqrt(std::max(0.0, pressed_.back().time_s - first_s));
+  return out;
 }
 
 void Verifying::propose(const LevelState& level) {

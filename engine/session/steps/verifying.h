@@ -47,7 +47,7 @@ class Verifying {
   [[nodiscard]] std::optional<TouchRefusal> add(LevelState& level, const TouchedPlace& place,
                                                 Timestamp time);
   void judge(LevelState& level);
-  [[nodiscard]] nav::PressModel press_model() const;
+  [[nodiscard]] nav::MotionOfWorld motion_of_world() const;
   void propose(const LevelState& level);
   static void put(const nav::Registration& registration, LevelState& level);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <Eigen/Dense>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -49,12 +50,16 @@ Observations strokes(test::StrokeVariant variant, std::uint64_t seed,
   return observed(digitized.tips(), 0.0);
 }
 
-double error_m(const Decision& d, const Transform<World, Vertebra>& truth) {
+double error_m(const Transform<World, Vertebra>& pose, const Transform<World, Vertebra>& truth) {
   double most = 0.0;
   for (const Point<Vertebra>& target : bone().question().targets) {
-    most = std::max(most, (d.answer.world_from_vertebra * target - truth * target).norm());
+    most = std::max(most, (pose * target - truth * target).norm());
   }
   return most;
+}
+
+double error_m(const Decision& d, const Transform<World, Vertebra>& truth) {
+  return error_m(d.answer.world_from_vertebra, truth);
 }
 
 // The integral over the standoff and the noise, held against sums over a fine grid.
@@ -314,50 +319,221 @@ TEST(Posterior, TissueThatLeapsBetweenAreasIsNoField) {
   EXPECT_LT(field.answer.log_evidence, d.answer.log_evidence - 3.0);
 }
 
-TEST(Posterior, PressesTellWhatTissueHides) {
-  // Where the decision asks for them, on bare bone, after strokes over 2 mm of uneven tissue.
-  constexpr std::size_t kPresses = 15;
-  std::vector<Point<Vertebra>> reachable;
+/// The largest RMS error at a target.
+double worst_rms_m(Vec3 centre_m, const std::array<double, 36>& covariance) {
+  double most = 0.0;
+  for (const Point<Vertebra>& target : bone().question().targets) {
+    most = std::max(most, PoseUncertainty(centre_m, covariance).predicted_tre_m(target));
+  }
+  return most;
+}
+
+/// Places all over the part that a pointer reaches.
+std::vector<Point<Vertebra>> reachable() {
+  std::vector<Point<Vertebra>> out;
   const std::vector<Vec3>& vertices_m = bone().model->reachable().vertices_m;
   for (std::size_t i = 0; i < vertices_m.size(); i += 1 + vertices_m.size() / 200) {
-    reachable.push_back({vertices_m[i]});
+    out.push_back({vertices_m[i]});
   }
+  return out;
+}
+
+test::StrokeTruths uneven_tissue() {
   test::StrokeTruths truths;
   truths.tissue = test::Tissue::kSmooth;
   truths.mean_tissue_m = 0.002;
+  return truths;
+}
+
+Height press_at(Point<World> at) {
+  const Prior prior;
+  return {at, prior.press_gap_m, 0.0001, prior.press_sd_m, prior.press_common_sd_m};
+}
+
+/// One after the other where most of the error goes, on bare bone, after strokes over 2 mm of
+/// uneven tissue.
+TEST(Posterior, PressesTellWhatTissueHides) {
+  constexpr std::size_t kPresses = 15;
   const BoneSurface surface(*bone().model);
   const Prior prior;
   double squares = 0.0, before_m2 = 0.0, after_m2 = 0.0, foreseen_m2 = 0.0;
   constexpr int kRuns = 5;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
     Transform<World, Vertebra> truth;
-    auto o = strokes(test::StrokeVariant::kFull, seed, truths, &truth);
+    const auto o = strokes(test::StrokeVariant::kFull, seed, uneven_tissue(), &truth);
     const auto first = decided(*bone().model, o, bone().question()).value();
-    const auto places = places_to_press(first.answer, surface, prior, bone().question().targets,
-                                        reachable, kPresses);
-    ASSERT_EQ(places.size(), kPresses);
     Random random(seed);
     const double common_m = random.normal(prior.press_gap_m, prior.press_common_sd_m);
     const Vec3 moved{random.normal(0.0, prior.moved_sd_m), random.normal(0.0, prior.moved_sd_m),
                      random.normal(0.0, prior.moved_sd_m)};
-    for (const PlaceToPress& p : places) {
-      const Vec3 out = surface.near(p.place.v, surface.place_near(p.place.v)).out;
+    std::vector<Height> presses;
+    Joined now = joined(first.answer.strokes, surface, presses, prior.moved_sd_m).value();
+    double foreseen_last_m = 0.0;
+    while (presses.size() < kPresses) {
+      std::vector<Height> candidates;
+      for (const Point<Vertebra>& place : reachable()) {
+        candidates.push_back(press_at(now.posterior.world_from_vertebra * place));
+      }
+      const auto foreseen = now.foreseen(surface, candidates);
+      std::vector<double> left_m;
+      for (const auto& covariance : foreseen.then) {
+        left_m.push_back(worst_rms_m(now.posterior.centre_m, covariance));
+      }
+      const auto best = std::min_element(left_m.begin(), left_m.end()) - left_m.begin();
+      foreseen_last_m = left_m[static_cast<std::size_t>(best)];
+      const Vec3 place = reachable()[static_cast<std::size_t>(best)].v;
+      const Vec3 out = surface.near(place, surface.place_near(place)).out;
       const double gap_m = common_m + random.normal(0.0, prior.press_sd_m);
-      o.presses.push_back({truth * Point<Vertebra>{p.place.v + gap_m * out} + moved, 0.0001});
+      presses.push_back(press_at(truth * Point<Vertebra>{place + gap_m * out} + moved));
+      now = joined(first.answer.strokes, surface, presses, prior.moved_sd_m).value();
     }
-    const auto then = decided(*bone().model, o, bone().question()).value();
     const Transform<World, Vertebra> moved_truth(truth.rotation(), truth.translation() + moved);
-    const double off_m = error_m(then, moved_truth);
-    squares += off_m * off_m / (then.rms_m * then.rms_m);
+    const double off_m = error_m(now.posterior.world_from_vertebra, moved_truth);
+    const double then_m = worst_rms_m(now.posterior.centre_m, now.posterior.covariance);
+    squares += off_m * off_m / (then_m * then_m);
     before_m2 += first.rms_m * first.rms_m;
-    after_m2 += then.rms_m * then.rms_m;
-    foreseen_m2 += std::pow(places.back().rms_then_m, 2);
-    EXPECT_FALSE(then.accepted && off_m > 0.002) << seed;
+    after_m2 += then_m * then_m;
+    foreseen_m2 += foreseen_last_m * foreseen_last_m;
   }
   EXPECT_LT(after_m2, 0.5 * before_m2);
   EXPECT_GT(squares / kRuns, 0.3) << "honest, not timid";
   EXPECT_LT(squares / kRuns, 2.0);
-  EXPECT_NEAR(std::sqrt(after_m2 / foreseen_m2), 1.0, 0.4) << "as foreseen";
+  EXPECT_NEAR(std::sqrt(after_m2 / foreseen_m2), 1.0, 0.2) << "as foreseen";
+}
+
+/// Draws from the strokes' posterior and the bone's motion, weighed by the likelihood of three
+/// presses, put the bone where the closed form does.
+TEST(Posterior, HeightsAreJoinedAsDrawsWeighedByThemSay) {
+  const BoneSurface surface(*bone().model);
+  Transform<World, Vertebra> truth;
+  const auto o = strokes(test::StrokeVariant::kFull, 2, {}, &truth);
+  Prior exact;  // the model's error is shared with the strokes, which draws do not know
+  exact.exact_share = 1.0;
+  exact.exact_m = exact.worst_m = 1e-6;
+  std::unique_ptr<Averaged> hand;
+  const auto first = posterior_of(o, surface, exact, truth, Effort::kFull, hand).value();
+  constexpr double kMoved_m = 0.0008;
+  std::vector<Height> presses;
+  for (const std::size_t i : {20U, 90U, 150U}) {
+    const Vec3 place = reachable()[i].v;
+    const Vec3 out = surface.near(place, surface.place_near(place)).out;
+    presses.push_back(press_at(truth * Point<Vertebra>{place + 0.0009 * out}));
+  }
+  const auto together = joined(first.strokes, surface, presses, kMoved_m).value();
+  // By draws.
+  const Prior prior;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(std::pow(prior.press_common_sd_m, 2));
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const double apart_m =
+          (presses[static_cast<std::size_t>(i)].at - presses[static_cast<std::size_t>(k)].at)
+              .norm();
+      covariance(i, k) += std::pow(prior.press_sd_m, 2) * std::exp(-apart_m / 0.003);
+    }
+    covariance(i, i) += 0.0001 * 0.0001;
+  }
+  const Eigen::Matrix3d precision = covariance.inverse();
+  const Point<Vertebra> target = bone().question().targets[1];
+  Random random(5);
+  double sum = 0.0;
+  Vec3 mean_m, square_m2;
+  constexpr int kDraws = 40000;
+  const Point<World> middle = truth * target;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    double through = random.uniform();
+    std::size_t part = 0;
+    while (part + 1 < first.parts.size() && through > first.parts[part].weight) {
+      through -= first.parts[part++].weight;
+    }
+    const Eigen::Matrix<double, 6, 6> root =
+        Eigen::Map<const Eigen::Matrix<double, 6, 6>>(first.parts[part].covariance.data())
+            .llt()
+            .matrixL();
+    Eigen::Matrix<double, 6, 1> normal;
+    for (double& n : normal) {
+      n = random.normal();
+    }
+    const Eigen::Matrix<double, 6, 1> step =
+        Eigen::Map<const Eigen::Matrix<double, 6, 1>>(first.parts[part].step.data()) +
+        root * normal;
+    const Vec3 moved{random.normal(0.0, kMoved_m), random.normal(0.0, kMoved_m),
+                     random.normal(0.0, kMoved_m)};
+    // The points step in the model's frame about their centre.
+    const Mat3 turn = rotation_from_vector({step(3), step(4), step(5)});
+    const Vec3 centre = first.centre_m;
+    const Transform<Vertebra, Vertebra> stepped{
+        turn, centre + Vec3{step(0), step(1), step(2)} - turn * centre};
+    const auto from_world = stepped * first.world_from_vertebra.inverse();
+    const auto pose = from_world.inverse();
+    const Transform<World, Vertebra> there(pose.rotation(), pose.translation() + moved);
+    Eigen::Vector3d off;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 p = (there.inverse() * presses[static_cast<std::size_t>(i)].at).v;
+      off(i) = surface.near(p, surface.place_near(p)).distance_m - prior.press_gap_m;
+    }
+    const double weight = std::exp(-0.5 * off.dot(precision * off));
+    const Vec3 at = there * target - middle;
+    sum += weight;
+    mean_m += weight * at;
+    square_m2 += weight * Vec3{at.x * at.x, at.y * at.y, at.z * at.z};
+  }
+  mean_m = mean_m / sum;
+  const Vec3 closed_m = together.posterior.world_from_vertebra * target - middle;
+  double rms_m = std::sqrt((square_m2.x + square_m2.y + square_m2.z) / sum - mean_m.squared_norm());
+  EXPECT_NEAR((closed_m - mean_m).norm(), 0.0, 0.1 * rms_m);
+  EXPECT_GT((first.world_from_vertebra * target - middle - mean_m).norm(), 0.3 * rms_m)
+      << "the twin: presses say something";
+  EXPECT_NEAR(PoseUncertainty(together.posterior.centre_m, together.posterior.covariance)
+                      .predicted_tre_m(target) /
+                  rms_m,
+              1.0, 0.08);
+}
+
+/// Two depth images, each of which lies some millimetres off along its rays, of a bone stroked
+/// under tissue. One that is not known to be off is trusted too much.
+TEST(Posterior, DepthImagesThatAreOffAlongTheirRaysStillTurnTheBone) {
+  const BoneSurface surface(*bone().model);
+  constexpr double kBias_m = 0.003;
+  constexpr double kNoise_m = 0.001;
+  constexpr int kRuns = 4;
+  double before_m2 = 0.0, after_m2 = 0.0, squares = 0.0, trusted_squares = 0.0;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    Transform<World, Vertebra> truth;
+    const auto o = strokes(test::StrokeVariant::kPartial, seed, uneven_tissue(), &truth);
+    const auto first = decided(*bone().model, o, bone().question()).value();
+    Random random(100 + seed);
+    std::vector<Height> depth;
+    for (int view = 0; view < 2; ++view) {
+      // From behind, and to a side.
+      const Vec3 ray = truth.rotation() * Vec3{view == 0 ? 0.5 : -0.5, 0.8, 0.3}.normalized();
+      const double bias_m = random.normal(0.0, kBias_m);
+      for (std::size_t i = static_cast<std::size_t>(view); i < reachable().size(); i += 4) {
+        const Vec3 noise{random.normal(0.0, kNoise_m), random.normal(0.0, kNoise_m),
+                         random.normal(0.0, kNoise_m)};
+        depth.push_back({truth * reachable()[i] + bias_m * ray + noise, 0.0, kNoise_m, 0.0, kBias_m,
+                         view, ray});
+      }
+    }
+    const auto with = [&](double told_m) {
+      std::vector<Height> heights = depth;
+      for (Height& height : heights) {
+        height.act_sd_m = told_m;
+      }
+      return joined(first.answer.strokes, surface, heights, 0.0003).value().posterior;
+    };
+    const auto square = [&](const Posterior& p) {
+      return std::pow(error_m(p.world_from_vertebra, truth) / worst_rms_m(p.centre_m, p.covariance),
+                      2);
+    };
+    const Posterior told = with(kBias_m);
+    before_m2 += first.rms_m * first.rms_m;
+    after_m2 += std::pow(worst_rms_m(told.centre_m, told.covariance), 2);
+    squares += square(told) / kRuns;
+    trusted_squares += square(with(0.0)) / kRuns;
+  }
+  EXPECT_LT(after_m2, 0.6 * before_m2);
+  EXPECT_LT(squares, 2.5);
+  EXPECT_GT(trusted_squares, 10.0) << "the twin";
 }
 
 TEST(Posterior, WhatShiftsAllPointsAlikeIsPartOfTheError) {
