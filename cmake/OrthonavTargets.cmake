@@ -115,6 +115,16 @@ function(orthonav_precompiled target group)
     <map> <memory> <numbers> <optional> <span> <sstream> <string> <thread> <variant> <vector> ${ARGN})
 endfunction()
 
+# orthonav_support(NAME sources...) makes the static library orthonav_NAME of what tests and benchmarks share.
+function(orthonav_support name)
+  add_library(orthonav_${name} STATIC ${ARGN})
+  target_include_directories(orthonav_${name} PUBLIC "${PROJECT_SOURCE_DIR}")
+  target_compile_definitions(orthonav_${name} PRIVATE
+    ORTHONAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ORTHONAV_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
+  orthonav_warnings(orthonav_${name})
+  orthonav_unity(orthonav_${name})
+endfunction()
+
 # The headers that nearly every test includes, read once for all of them. Each test still includes
 # what it uses: without ORTHONAV_UNITY nothing is precompiled.
 function(orthonav_test_headers target)

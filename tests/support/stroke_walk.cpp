@@ -7,7 +7,6 @@
 namespace orthonav::test {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kAimStep_m = 0.00025;
 /// A tip that moves more in one step has fallen off an edge.
 constexpr double kFall_m = 0.0012;
@@ -19,7 +18,7 @@ constexpr double kFlattest = 0.12;
 /// Over the canal: how far in front of its back wall the tip goes, as a fraction of its depth.
 constexpr double kDeepest = 0.5;
 /// How the handle slants along a lane.
-constexpr double kSlant_rad = 6.0 * kDegree;
+constexpr double kSlant_rad = 6.0 * (std::numbers::pi / 180.0);
 
 bool is_spinous_side(BoneRegion r) {
   return r == BoneRegion::kLeftSpinousSide || r == BoneRegion::kRightSpinousSide;

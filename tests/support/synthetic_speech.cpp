@@ -10,7 +10,7 @@ namespace orthonav::test {
 
 namespace {
 
-constexpr int kRateHz = 16000;
+constexpr int kOutHz = 16000;
 
 int keep(short* samples, int count, espeak_EVENT* events) {
   auto* out = events ? static_cast<std::vector<float>*>(events->user_data) : nullptr;
@@ -50,7 +50,7 @@ Result<std::vector<std::int16_t>> spoken(const std::string& text, const Speaker&
     return Error{"espeak-ng can't say \"" + text + "\""};
   }
   espeak_Synchronize();
-  const double ratio = static_cast<double>(kRateHz) / rate_hz;
+  const double ratio = static_cast<double>(kOutHz) / rate_hz;
   std::vector<float> resampled(
       static_cast<std::size_t>(static_cast<double>(own_rate.size()) * ratio) + 16);
   SRC_DATA work{};
