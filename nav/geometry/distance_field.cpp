@@ -49,14 +49,16 @@ DistanceField::DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near,
   const std::size_t samples = count();
   const auto row = static_cast<std::size_t>(size_[0]);
   distance_m_.reserve(samples);
-  double before_m = 0.0;
+  Vec3 closest_m;
   for (std::size_t i = 0; i < samples; ++i) {
     const Vec3 place = place_m(i);
-    // The distance is at most the neighbour's distance plus the step to it.
-    const double within_m = i % row > 0 ? before_m + cell_m * (1.0 + 1e-9) : 1e9;
-    const auto found = near.nearest(place, within_m);
-    before_m = found ? found->distance_m : before_m + cell_m;
-    distance_m_.push_back(signed_distance_m(before_m, bone, place));
+    // The surface is no farther than its point that is closest to the neighbour.
+    double within_m = i % row > 0 ? (closest_m - place).norm() * (1.0 + 1e-12) + 1e-15 : 1e9;
+    if (const auto found = near.nearest(place, within_m)) {
+      closest_m = found->point_m;
+      within_m = found->distance_m;
+    }
+    distance_m_.push_back(signed_distance_m(within_m, bone, place));
   }
 }
 

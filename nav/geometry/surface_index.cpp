@@ -177,13 +177,12 @@ bool SurfaceIndex::contains(Vec3 query_m) const {
   // that grazes an edge.
   constexpr std::array<Vec3, 3> kDirections = {
       {{0.8164, 0.3147, 0.4842}, {-0.2741, 0.9013, -0.3353}, {0.1372, -0.5329, -0.8350}}};
-  int inside = 0;
-  for (const Vec3& direction : kDirections) {
-    if (const auto hit = first_hit(query_m, direction); hit && hit->normal.dot(direction) > 0.0) {
-      ++inside;
-    }
-  }
-  return inside >= 2;
+  const auto inside = [&](std::size_t i) {
+    const auto hit = first_hit(query_m, kDirections[i]);
+    return hit && hit->normal.dot(kDirections[i]) > 0.0;
+  };
+  const bool first = inside(0);
+  return inside(1) == first ? first : inside(2);
 }
 
 }  // namespace orthonav::nav
