@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <map>
 
 #include "base/check.h"
+#include "base/mutex.h"
 #include "embedded/phantom_json.h"
 #include "engine/phantom/phantom_file.h"
 #include "engine/phantom/vertebra_shape.h"
@@ -87,7 +89,10 @@ Case phantom(const std::vector<std::string>& labels) {
   ORTHONAV_CHECK(read.ok());
   const PhantomParameters& parameters = *read;
   const std::vector<Transform<Spine, Vertebra>> place = places(parameters.levels);
-  std::vector<std::future<CaseLevel>> making;
+  // Each level is made once.
+  static Mutex mutex;
+  static std::map<std::string, std::shared_future<CaseLevel>> known;
+  std::vector<std::shared_future<CaseLevel>> asked_for;
   for (std::size_t i = 0; i < parameters.levels.size(); ++i) {
     const VertebraMorphometry& morphometry = parameters.levels[i];
     const bool wanted = labels.empty() ||
@@ -95,15 +100,20 @@ Case phantom(const std::vector<std::string>& labels) {
     if (!wanted) {
       continue;
     }
-    making.push_back(std::async(std::launch::async, [&morphometry, &parameters, &place, i] {
-      CaseLevel level = made(morphometry, parameters);
-      level.spine_from_vertebra = place[i];
-      return level;
-    }));
+    const MutexLock lock(mutex);
+    std::shared_future<CaseLevel>& level = known[morphometry.label];
+    if (!level.valid()) {
+      level = std::async(std::launch::async, [morphometry, parameters, at = place[i]] {
+        CaseLevel one = made(morphometry, parameters);
+        one.spine_from_vertebra = at;
+        return one;
+      });
+    }
+    asked_for.push_back(level);
   }
   Case spine;
   spine.name = parameters.name;
-  for (std::future<CaseLevel>& level : making) {
+  for (const std::shared_future<CaseLevel>& level : asked_for) {
     spine.levels.push_back(level.get());
   }
   return spine;

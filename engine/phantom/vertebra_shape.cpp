@@ -68,6 +68,8 @@ double VertebraShape::Bar::value(Vec3 p) const {
 
 VertebraShape::VertebraShape(const VertebraMorphometry& m) : m_(m) {
   back_of_body_m_ = 0.5 * m.depth_m();
+  body_reach_m_ = 0.5 * std::hypot(std::max(m.lower_width_m, m.upper_width_m),
+                                   std::max(m.lower_depth_m, m.upper_depth_m));
   // The pedicles leave the upper half of the body, beside the canal.
   pedicle_waist_ = {0.5 * (m.canal_width_m + m.pedicle_width_m), back_of_body_m_ + 0.004,
                     0.5 * m.posterior_height_m - 0.5 * m.pedicle_height_m - 0.0002};
@@ -202,7 +204,9 @@ double VertebraShape::value(Vec3 p) const {
     arch = smooth_min(arch, bar.value(q), kBlend_m);
   }
   arch = smooth_max(arch, -canal(p), kCanalBlend_m);
-  return smooth_min(arch, body(p), kBodyBlend_m);
+  // Of the body this much is certain; it blends in no farther away.
+  const bool far = std::hypot(p.x, p.y) - body_reach_m_ > arch + kBodyBlend_m;
+  return far ? arch : smooth_min(arch, body(p), kBodyBlend_m);
 }
 
 Vec3 VertebraShape::low_m() const {

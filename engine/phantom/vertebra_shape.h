@@ -77,6 +77,7 @@ class VertebraShape {
 
   VertebraMorphometry m_;
   double back_of_body_m_ = 0;
+  double body_reach_m_ = 0;     ///< from its axis, at most
   Vec3 pedicle_waist_;          ///< of the left one
   std::vector<Bar> left_bars_;  ///< the right ones are their mirror images
   std::vector<Bar> middle_bars_;
