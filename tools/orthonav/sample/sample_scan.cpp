@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "base/printed.h"
@@ -83,13 +82,16 @@ void put_bone(const nav::TriangleMesh& mesh, float value, SampleScan& scan) {
   const nav::SurfaceIndex surface(mesh);
   const nav::Bounds bounds = nav::bounds_of(mesh);
   const engine::VolumeGrid& grid = scan.ct.grid;
+  Vec3 seen_m;
+  double clear_m = 0.0;  // about there
+  bool inside = false;
   for_each_voxel(grid, block_about(grid, bounds.low, bounds.high), [&](std::size_t n, Vec3 p) {
-    const bool inside = surface.contains(p);
-    const auto nearest = surface.nearest(p, inside ? kCortex_m + kVoxel_m : kVoxel_m);
-    if (!inside && !nearest) {
-      return;
+    double depth_m = clear_m - (p - seen_m).norm();
+    if (depth_m < kCortex_m + kVoxel_m) {
+      seen_m = p;
+      depth_m = clear_m = surface.nearest(p)->distance_m;
+      inside = surface.contains(p);
     }
-    const double depth_m = nearest ? nearest->distance_m : std::numeric_limits<double>::max();
     mix(scan.ct.values[n], share_inside(inside ? -depth_m : depth_m), kCortex_hu);
     if (inside) {
       mix(scan.ct.values[n], share_inside(kCortex_m - depth_m), kCancellous_hu);
