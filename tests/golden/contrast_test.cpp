@@ -76,7 +76,7 @@ RgbaImage patch(sim::RoomRenderer& room, const sim::RoomState& state, Vec3 targe
 }
 
 std::vector<Background> backgrounds() {
-  const auto operation = plan_operation(phantom(), {"L4"});
+  const auto operation = plan_operation(phantom({"L4"}), {"L4"});
   const sim::RoomDescription room = room_of(phantom(), *operation, built_in_tools());
   sim::RoomState state = sim::scene::operating_state(room);
   const auto renderer = sim::RoomRenderer::create(room, sim::ErrorModel::perfect());

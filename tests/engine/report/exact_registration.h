@@ -19,7 +19,8 @@ inline nav::PoseUncertainty translation_only() {
 
 /// Points on the phantom itself, and one 8 mm behind it: no noise, one outlier.
 inline RegisteredLevel exact() {
-  static const OperatedLevel kLevel = plan_operation(phantom(), {"L4"}).value().levels.front();
+  static const OperatedLevel kLevel =
+      plan_operation(phantom({"L4"}), {"L4"}).value().levels.front();
   RegisteredLevel level;
   level.label = "L4";
   level.method = "best";

@@ -263,7 +263,7 @@ TEST(ReportJson, DoesNotDependOnWallTime) {
 }
 
 TEST(OperationPlan, TakesTheTwoLowestLevelsInTheOrderOfTheCase) {
-  const auto operation = plan_operation(phantom());
+  const auto operation = plan_operation(phantom({"L3", "L4", "L5"}));
   ASSERT_TRUE(operation.ok()) << operation.error().message;
   ASSERT_EQ(operation->levels.size(), 2u);
   EXPECT_EQ(operation->levels[0].label, "L4");

@@ -46,7 +46,7 @@ ReportContent full_content() {
       {"angle", "time [s]", "°", {{"L4 left", {0, 1}, {70, 1}}}, {{5.0, "red"}}, 6.0});
   content.timings.push_back({"draw the surgeon's view (room and holograms)", {}});
   content.timings.back().ms.add(1.0);
-  const OperatedLevel level = plan_operation(phantom(), {"L4"}).value().levels.front();
+  const OperatedLevel level = plan_operation(phantom({"L4"}), {"L4"}).value().levels.front();
   RegisteredLevel registered;
   registered.label = "L4";
   registered.method = "best";

@@ -237,7 +237,7 @@ std::vector<nav::Sample> sweep_of(const nav::VertebraModel& model, std::size_t c
 }
 
 TEST(CoachByBest, ExpectsLessAsSamplesComeInAndTheSameEveryTime) {
-  const Operation operation = plan_operation(phantom(), {"L4"}).value();
+  const Operation operation = plan_operation(phantom({"L4"}), {"L4"}).value();
   const OperatedLevel& level = operation.levels[0];
   const std::vector<nav::Sample> sweep = sweep_of(*level.model, 500);
   std::vector<std::vector<double>> expected_m;
