@@ -199,15 +199,14 @@ void weigh(const JoinedPlaces& joined, std::span<CheckPoint> points) {
   constexpr double kTouch_m = 0.001;
   constexpr std::size_t kMany = 8;
   constexpr double kMaxWithin = 2.0;
-  const std::vector<double>& offs_m = joined.joined.off_m;
-  const std::size_t before = offs_m.size() - points.size();
+  const std::size_t before = joined.off_m.size() - points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double off_m = offs_m[before + i];
-    const double limit_m = std::max(kTouch_m, kMaxSds * joined.joined.off_sd_m[before + i]);
+    const double off_m = joined.off_m[before + i];
+    const double limit_m = std::max(kTouch_m, kMaxSds * joined.off_sd_m[before + i]);
     const bool fits = std::abs(off_m) <= limit_m;
     // Among many places, some lie beyond a fixed limit because of model error and the map's drift;
     // comparing each with the prediction from the others is the better test.
-    if (fits && offs_m.size() >= kMany &&
+    if (fits && joined.off_m.size() >= kMany &&
         std::abs(points[i].distance_m) <= kMaxWithin * points[i].limit_m) {
       points[i].limit_m = std::max(points[i].limit_m, std::abs(points[i].distance_m));
       points[i].within = true;

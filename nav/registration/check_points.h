@@ -24,7 +24,7 @@ struct CheckPointRules {
   /// With a patient reference, more places are asked for, up to this many in all, while 1 of 100
   /// errors at the screws may exceed `wanted_tre_99_m` and the next place would reduce the expected
   /// error by at least the fraction `least_gain`. After that the limits of any registration apply.
-  std::size_t enough = 8;
+  std::size_t enough = 25;
   double wanted_tre_99_m = 0.0008;
   double least_gain = 0.002;
 

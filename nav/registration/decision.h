@@ -50,14 +50,6 @@ struct Decision {
   double within_99_m = 0.0;
 };
 
-/// The largest error at any target, ascending: 4096 draws, always the same, from a posterior, held
-/// against a pose.
-[[nodiscard]] std::vector<double> errors_m(const Posterior& posterior,
-                                           const Transform<World, Vertebra>& answer,
-                                           std::span<const Point<Vertebra>> targets);
-/// The error below which this share of them lies.
-[[nodiscard]] double quantile_m(const std::vector<double>& ascending_m, double share);
-
 /// Compares all explanations of the points. Refuses points that can't be registered at all: fewer
 /// than 100, not finite, spread too widely, on a line, or such that no pose is found.
 [[nodiscard]] Result<Decision> decided(const VertebraModel& model, const Observations& observations,

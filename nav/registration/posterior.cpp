@@ -206,19 +206,15 @@ Eigen::Matrix<double, 1, kColumns> columns_of(const Touches::Touch& touch, Vec3 
 // The grid, and the prior of a point of it.
 
 constexpr int kShares = 7;
-constexpr int kTimes = 11;
-/// SDs, of the noise's: 0, then each `by` times the one before.
-struct Ratios {
-  int count = 0;
-  double by = 0.0;
-  static constexpr double kLeast = 0.12;
-  [[nodiscard]] double at(int k) const { return k == 0 ? 0.0 : kLeast * std::pow(by, k - 1); }
-  /// Between number k and the next one.
-  [[nodiscard]] double above(int k) const { return kLeast * std::pow(by, k - 0.5); }
-};
-constexpr Ratios kUneven{6, 2.8};
-/// Finer: what presses tell rests on it.
-constexpr Ratios kModelOff{10, 1.673};
+constexpr int kTimes = 9;
+constexpr int kRatios = 6;
+constexpr double kLeastRatio = 0.12;
+
+constexpr double kByRatio = 2.8;
+/// The SD of number k, of the noise's; each is `kByRatio` times the one before.
+double ratio(int k) { return k == 0 ? 0.0 : kLeastRatio * std::pow(kByRatio, k - 1); }
+/// Between it and the next one.
+double ratio_above(int k) { return kLeastRatio * std::pow(kByRatio, k - 0.5); }
 
 /// Indices of what a point of the grid is made of. Even times and lengths are rough, odd smooth.
 enum Index : std::size_t { kShare, kTime, kTissue, kLength, kStroke, kModel, kByArea };
@@ -255,11 +251,11 @@ Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
     out.white = 1.0;
     out.noise = {prior.longest_s, false};
   }
-  out.tissue = kUneven.at(node[kTissue]);
+  out.tissue = ratio(node[kTissue]);
   out.tissue_over = {prior.tissue_lengths_m[static_cast<std::size_t>(node[kLength]) / 2],
                      node[kLength] % 2 == 1};
-  out.stroke = kUneven.at(node[kStroke]);
-  out.model = kModelOff.at(node[kModel]);
+  out.stroke = ratio(node[kStroke]);
+  out.model = ratio(node[kModel]);
   out.by_area = node[kByArea] == 1;
   return out;
 }
@@ -267,17 +263,17 @@ Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
 /// Log prior of a point of the grid, given s and the noise.
 double log_prior_of(const Prior& prior, const Node& node, double s_m, double noise_m) {
   // The mass of a law between this SD and its neighbours.
-  const auto mass = [&](const Ratios& ratios, int k, const auto& less) {
-    const double low = k == 0 ? 0.0 : less(ratios.above(k - 1) * noise_m);
-    const double high = k == ratios.count - 1 ? 1.0 : less(ratios.above(k) * noise_m);
+  const auto mass = [&](int k, const auto& less) {
+    const double low = k == 0 ? 0.0 : less(ratio_above(k - 1) * noise_m);
+    const double high = k == kRatios - 1 ? 1.0 : less(ratio_above(k) * noise_m);
     return std::max(0.0, high - low);
   };
   const auto uneven = [&](double sd_m) { return varies_by_less(prior, sd_m, s_m); };
-  const double tissue = mass(kUneven, node[kTissue], uneven);
-  const double strokes = prior.uneven_hand_share * mass(kUneven, node[kStroke], uneven) +
+  const double tissue = mass(node[kTissue], uneven);
+  const double strokes = prior.uneven_hand_share * mass(node[kStroke], uneven) +
                          (node[kStroke] == 0 ? 1.0 - prior.uneven_hand_share : 0.0);
   const double model =
-      mass(kModelOff, node[kModel], [&](double sd_m) { return model_off_by_less(prior, sd_m); });
+      mass(node[kModel], [&](double sd_m) { return model_off_by_less(prior, sd_m); });
   // Times, lengths and kinds of act, where they mean something, are equally likely.
   const double times = node[kShare] == kShares - 1 ? 1.0 : 2.0 * kTimes;
   const double lengths =
@@ -770,9 +766,12 @@ double most_of(const Answers& answers) {
 /// How many values each index of a point of the grid has.
 Node size_of_grid(const Averaged::Units& units) {
   const bool in_time = units.observations.in_time;
-  return {in_time ? kShares : 1,  in_time ? 2 * kTimes : 1,
-          kUneven.count,          2 * static_cast<int>(units.prior.tissue_lengths_m.size()),
-          kUneven.count,          kModelOff.count,
+  return {in_time ? kShares : 1,
+          in_time ? 2 * kTimes : 1,
+          kRatios,
+          2 * static_cast<int>(units.prior.tissue_lengths_m.size()),
+          kRatios,
+          kRatios,
           units.has_areas ? 2 : 1};
 }
 
@@ -835,13 +834,13 @@ std::vector<Node> scattered(const Node& size) {
       out.push_back(even);
       for (const std::size_t uneven : {kTissue, kStroke, kModel}) {
         out.push_back(even);
-        out.back()[uneven] = uneven == kModel ? 3 : 2;
+        out.back()[uneven] = 2;
         if (uneven == kTissue) {
           out.back()[kLength] = 3;
         }
       }
       out.push_back(even);
-      out.back()[kModel] = 7;  // where it is known to be off by more than the noise
+      out.back()[kModel] = 4;  // where it is known to be off by more than the noise
       if (size[kByArea] > 1) {
         out.push_back(even);
         out.back()[kStroke] = 2;
@@ -1133,7 +1132,7 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   const auto blocks = blocks_of(observations, units_of(observations, Averaged::kUnits));
   Transform<Vertebra, World> from_world = start.inverse();
   const bool told_here = shared == nullptr;
-  const bool full = effort == Effort::kFull;
+  const bool full = effort != Effort::kRough;
   const int most_rounds = full ? 3 : 1;
   // What the points tell of the hand, and where the grid has weight, is looked at where the descent
   // begins and, if that was elsewhere, again where it ends.
@@ -1175,7 +1174,9 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   std::shared_ptr<const Strokes> strokes;
   if (full && told_here) {
     heights = heights_of(units, here, answers);
-    strokes = kept_of(units, here, answers);
+    if (effort == Effort::kToJoin) {
+      strokes = kept_of(units, here, answers);
+    }
   }
   Posterior out = assembled(here, shared->hand(), answers);
   out.heights = std::move(heights);
@@ -1258,43 +1259,6 @@ Eigen::MatrixXd model_error(const Strokes& strokes, std::span<const Unit> of,
 }
 
 }  // namespace
-
-std::shared_ptr<const Strokes> told_by(const Transform<World, Vertebra>& world_from_vertebra,
-                                       Vec3 centre_m, const std::array<double, 36>& covariance) {
-  constexpr double kFloor_m = 1e-5;   // what counts as exact
-  constexpr double kNoise_m = 0.001;  // the unit of all SDs, and known
-  constexpr double kKnown = 1e4;
-  auto out = std::make_shared<Strokes>();
-  out->at = {world_from_vertebra.inverse(), centre_m, {}};
-  const Vector6 in_columns = step_scale().cwiseInverse();
-  Matrix6 pose = in_columns.asDiagonal() * Eigen::Map<const Rows6>(covariance.data()) *
-                 in_columns.asDiagonal();
-  pose.diagonal().array() += kFloor_m * kFloor_m;
-  const Matrix6 information = kNoise_m * kNoise_m * pose.inverse();
-  Products rows = Products::Zero();
-  rows.topLeftCorner<6, 6>() = information;
-  rows.block<3, 6>(kShift, 0) = -information.topRows<3>();
-  rows.block<6, 3>(0, kShift) = -information.leftCols<3>();
-  rows.block<3, 3>(kShift, kShift) = information.topLeftCorner<3, 3>();
-  rows(kStandoff, kStandoff) = 1.0;
-  for (int k = 0; k < kModelOff.count; ++k) {
-    Mixture of;
-    of.white = 1.0;
-    of.model = kModelOff.at(k);
-    out->nodes.push_back({{{kShares - 1, 0, 0, 0, 0, k, 0},
-                           of,
-                           rows,
-                           kKnown,
-                           kKnown * kNoise_m * kNoise_m,
-                           0.0,
-                           0.0,
-                           0.0},
-                          kNoise_m,
-                          {},
-                          Columns(0, kColumns)});
-  }
-  return out;
-}
 
 std::optional<Joined> joined(const std::shared_ptr<const Strokes>& strokes, const BoneSurface& bone,
                              std::span<const Height> heights, double moved_sd_m) {

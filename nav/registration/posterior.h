@@ -127,7 +127,7 @@ struct Posterior {
   /// How high the tip was along the strokes, without noise; where it was asked for in full and
   /// nothing was shared.
   std::vector<EstimatedHeight> heights;
-  std::shared_ptr<const Strokes> strokes;  ///< likewise
+  std::shared_ptr<const Strokes> strokes;  ///< by `kToJoin`, where nothing was shared
   Hand hand;
 };
 
@@ -152,8 +152,9 @@ struct OverStandoff {
     const Squares& squares, double freedom,
     const std::function<double(double s_m, double noise_m)>& log_prior);
 
-/// How closely to look: `kRough` takes little time and tells which hypotheses are far worse.
-enum class Effort : std::uint8_t { kRough, kFull };
+/// How closely to look: `kRough` takes little time and tells which hypotheses are far worse;
+/// `kToJoin` also keeps the strokes.
+enum class Effort : std::uint8_t { kRough, kFull, kToJoin };
 
 /// The posterior near `start`. `shared`: under the hand of the best explanation, for all others to
 /// be compared with it; null: the hand is told by the points at this pose, and is there afterwards.
@@ -163,12 +164,6 @@ enum class Effort : std::uint8_t { kRough, kFull };
     const Observations& observations, const BoneSurface& bone, const Prior& prior,
     const Transform<World, Vertebra>& start, Effort effort, std::unique_ptr<Averaged>& shared,
     double least = -std::numeric_limits<double>::infinity());
-
-/// What stands for strokes of which only pose and covariance (of the points' step, as in `Part`)
-/// are known.
-[[nodiscard]] std::shared_ptr<const Strokes> told_by(
-    const Transform<World, Vertebra>& world_from_vertebra, Vec3 centre_m,
-    const std::array<double, 36>& covariance);
 
 /// The posterior of strokes and of heights that were measured after them.
 struct Joined {

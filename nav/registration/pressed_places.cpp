@@ -1,22 +1,19 @@
 #include "nav/registration/pressed_places.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <Eigen/Dense>
 #include <limits>
-#include <memory>
 
-#include "nav/registration/decision.h"
 #include "nav/registration/errors_at_targets.h"
+#include "nav/registration/press_fit.h"
 
 namespace orthonav::nav {
 namespace {
 
 /// The SD that averaging a tip at rest for a second leaves.
 constexpr double kUsualSd_m = 0.0002;
-
-posterior::Height press_of(const PressedPlace& place) {
-  const posterior::Prior prior;
-  return {place.place, prior.press_gap_m, place.sd_m, prior.press_sd_m, prior.press_common_sd_m};
-}
 
 /// Judges the registration again; touched places can't remove the other reasons for which the
 /// strokes were refused.
@@ -32,7 +29,63 @@ void judge(const PoseSearchRegistrationOptions& options, Registration& r) {
   r.provisional = is_provisional(r);
 }
 
-double worst_tre_m(Vec3 centre_m, const std::array<double, 36>& covariance,
+using Covariance6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+/// What a unit of each height moves the pose by, with the likeliest field.
+Eigen::MatrixXd gain_of(const PressFit& fit) {
+  const auto n = static_cast<Eigen::Index>(fit.heights.size());
+  const Eigen::Map<const Eigen::MatrixXd> inverse(fit.inverse_1_m2.data(), n, n);
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>> shared(
+      fit.shared.front().data(), n, 6);
+  return shared.transpose() * inverse;
+}
+
+/// What an error of the model that the fit did not know of adds to the pose's covariance.
+Covariance6 model_left(const PressFit& fit, const ModelError& error) {
+  const auto n = static_cast<Eigen::Index>(fit.heights.size());
+  Eigen::MatrixXd off_m2(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index k = 0; k < n; ++k) {
+      off_m2(i, k) = shared_error_m2(error, fit.heights[static_cast<std::size_t>(i)].at_m,
+                                     fit.heights[static_cast<std::size_t>(k)].at_m);
+    }
+  }
+  const Eigen::MatrixXd gain = gain_of(fit);
+  return gain * off_m2 * gain.transpose();
+}
+
+/// The part of the pose's covariance after all presses that comes from World's drift, by the gain
+/// of the likeliest field.
+Covariance6 walk_left(const PressFit& fit, const PressModel& press) {
+  const double walk_m2 = press.drift_m_per_sqrt_s * press.drift_m_per_sqrt_s;
+  const auto n = static_cast<Eigen::Index>(fit.heights.size());
+  Eigen::MatrixXd with_now = Eigen::MatrixXd::Zero(n, 6);
+  Eigen::MatrixXd walk(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const PressedHeight& a = fit.heights[static_cast<std::size_t>(i)];
+    with_now.row(i).head<3>() << a.time_s * a.up.x, a.time_s * a.up.y, a.time_s * a.up.z;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const PressedHeight& b = fit.heights[static_cast<std::size_t>(k)];
+      walk(i, k) = std::min(a.time_s, b.time_s) * a.up.dot(b.up);
+    }
+  }
+  const Eigen::MatrixXd gain = gain_of(fit);
+  const Covariance6 taken = gain * with_now;
+  Covariance6 left = gain * walk * gain.transpose() - taken - taken.transpose();
+  left.topLeftCorner<3, 3>().diagonal().array() += fit.now_s;
+  return walk_m2 * left;
+}
+
+/// The pose's covariance without World's walk. The gain of one field does not quite match the
+/// covariance of all of them: if the difference is not a covariance, the drift is kept.
+std::array<double, 36> without_walk(const PressFit& fit, const PressModel& press) {
+  std::array<double, 36> own = fit.covariance;
+  Eigen::Map<Covariance6> left(own.data());
+  left -= walk_left(fit, press);
+  return Eigen::LLT<Covariance6>(left).info() == Eigen::Success ? own : fit.covariance;
+}
+
+double worst_tre_m(const std::array<double, 36>& covariance, Vec3 centre_m,
                    std::span<const Point<Vertebra>> targets) {
   const PoseUncertainty uncertainty(centre_m, covariance);
   double worst_m = 0.0;
@@ -45,55 +98,51 @@ double worst_tre_m(Vec3 centre_m, const std::array<double, 36>& covariance,
 }  // namespace
 
 std::optional<JoinedPlaces> join_places(const VertebraModel& model, const Registration& strokes,
-                                        std::span<const PressedPlace> places,
-                                        const PoseSearchRegistrationOptions& options,
-                                        const MotionOfWorld& motion) {
-  if (!strokes.uncertainty) {
-    return std::nullopt;
-  }
-  const PoseUncertainty own = without_common(*strokes.uncertainty, strokes.common);
-  const auto prior = strokes.strokes ? strokes.strokes
-                                     : posterior::told_by(strokes.world_from_vertebra,
-                                                          own.centre_m(), own.covariance());
-  std::vector<posterior::Height> heights;
-  for (const PressedPlace& place : places) {
-    heights.push_back(press_of(place));
-  }
-  auto joined = posterior::joined(prior, posterior::BoneSurface(model), heights, motion.before_m);
-  if (!joined) {
+                                        const PressFit& fit, const PressModel& press,
+                                        const PoseSearchRegistrationOptions& options) {
+  if (fit.heights.empty()) {
     return std::nullopt;
   }
   JoinedPlaces out;
+  out.off_m = fit.off_m;
+  out.off_sd_m = fit.off_sd_m;
+  out.model = fit.model;
   Registration& r = out.registration;
   r = strokes;
-  const posterior::Posterior& answer = joined->posterior;
-  r.world_from_vertebra = answer.world_from_vertebra;
+  r.world_from_vertebra = fit.moved(strokes.world_from_vertebra);
   if (strokes.runner_up == strokes.world_from_vertebra) {
     r.runner_up = r.world_from_vertebra;  // there is none
   }
   CommonErrors common = strokes.common;
-  common.map_m = motion.since_m;
-  const auto targets = targets_of(model, options);
-  put_errors(model, PoseUncertainty(answer.centre_m, answer.covariance), common, targets, r);
-  const auto errors_m = posterior::errors_m(answer, answer.world_from_vertebra, targets);
-  r.tre_95_m = posterior::quantile_m(errors_m, 0.95);
-  r.tre_99_m = posterior::quantile_m(errors_m, 0.99);
+  common.map_m = press.since_sd_m;
+  std::array<double, 36> covariance = fit.covariance;
+  if (press.left_out) {
+    Eigen::Map<Covariance6>(covariance.data()) += model_left(fit, *press.left_out);
+  }
+  const PoseUncertainty whole(fit.centre_m, covariance);
+  // Limits judge the registration alone, without World's drift, which no press can reduce. The
+  // drift stays in the uncertainty.
+  put_errors(model, {fit.centre_m, without_walk(fit, press)}, common, targets_of(model, options),
+             r);
+  r.uncertainty = with_common(whole, common);
   judge(options, r);
-  out.joined = std::move(*joined);
   return out;
 }
 
-std::optional<NextPlace> place_to_press(const VertebraModel& model, const JoinedPlaces& joined,
+std::optional<NextPlace> place_to_press(const VertebraModel& model, const Registration& strokes,
                                         std::span<const Point<World>> stroked,
-                                        std::span<const PressedPlace> pressed,
+                                        std::span<const PressedPlace> pressed, const PressFit& fit,
+                                        const PressModel& press,
                                         const PoseSearchRegistrationOptions& options,
                                         double apart_m) {
   constexpr std::size_t kMaxTried = 250;
   constexpr double kOnBone_m = 0.003;
   const auto targets = targets_of(model, options);
-  const Transform<World, Vertebra>& world_from_vertebra = joined.registration.world_from_vertebra;
+  const auto world_from_vertebra = fit.moved(strokes.world_from_vertebra);
   const auto from_world = world_from_vertebra.inverse();
-  std::vector<posterior::Height> candidates;
+  NextPlace best;
+  best.tre_m = worst_tre_m(fit.likeliest_covariance, fit.centre_m, targets);
+  best.tre_then_m = std::numeric_limits<double>::infinity();
   const std::size_t step = std::max<std::size_t>(1, stroked.size() / kMaxTried);
   for (std::size_t i = 0; i < stroked.size(); i += step) {
     const auto nearest = model.reachable_surface().nearest((from_world * stroked[i]).v, kOnBone_m);
@@ -101,24 +150,18 @@ std::optional<NextPlace> place_to_press(const VertebraModel& model, const Joined
       continue;
     }
     const Point<World> place = world_from_vertebra * Point<Vertebra>{nearest->point_m};
-    if (std::none_of(pressed.begin(), pressed.end(),
-                     [&](const PressedPlace& p) { return (p.place - place).norm() < apart_m; })) {
-      candidates.push_back(press_of({place, kUsualSd_m}));
+    if (std::any_of(pressed.begin(), pressed.end(),
+                    [&](const PressedPlace& p) { return (p.place - place).norm() < apart_m; })) {
+      continue;
     }
-  }
-  const auto foreseen = joined.joined.foreseen(posterior::BoneSurface(model), candidates);
-  const Vec3 centre_m = joined.joined.posterior.centre_m;
-  NextPlace best;
-  best.tre_m = worst_tre_m(centre_m, foreseen.now, targets);
-  best.tre_then_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const double then_m = worst_tre_m(centre_m, foreseen.then[i], targets);
+    const PressedHeight next{nearest->point_m, nearest->normal, fit.now_s, kUsualSd_m};
+    const double then_m = worst_tre_m(fit.with(next, press), fit.centre_m, targets);
     if (then_m < best.tre_then_m) {
       best.tre_then_m = then_m;
-      best.place = candidates[i].at;
+      best.place = place;
     }
   }
-  return candidates.empty() ? std::nullopt : std::optional(best);
+  return std::isfinite(best.tre_then_m) ? std::optional(best) : std::nullopt;
 }
 
 }  // namespace orthonav::nav

@@ -4,10 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "nav/registration/posterior.h"
+#include "nav/registration/model_error.h"
 #include "nav/registration/registration.h"
 
 namespace orthonav::nav {
+
+struct PressFit;
 
 /// A place where the pointer's tip was pressed to the bone.
 struct PressedPlace {
@@ -16,30 +18,47 @@ struct PressedPlace {
   double time_s = 0.0;  ///< since the bone was registered by its strokes
 };
 
-/// SDs along each axis of World's motion relative to the bone.
-struct MotionOfWorld {
-  double before_m = posterior::Prior{}.moved_sd_m;  ///< between the strokes and the places
-  /// Since the places were pressed: included in the reported uncertainty, but not compared with the
-  /// limits, because no press can reduce it.
-  double since_m = 0.0;
+/// Prior knowledge about such places.
+struct PressModel {
+  /// Height of the tip above the bone: mean, SD common to all places, SD of each place. Estimates
+  /// for soft tissue under a pressed tip.
+  double height_m = 0.0002;
+  double common_sd_m = 0.0002;
+  double sd_m = 0.0003;
+  double tip_radius_m = 0.0;
+  /// SD along each axis of World's motion relative to the bone between the strokes and the
+  /// registration; and its random walk from then on, m/√s.
+  double moved_sd_m = 0.0003;
+  double drift_m_per_sqrt_s = 0.0;
+  /// SD along each axis of its motion since the places were pressed, if the random walk is not part
+  /// of the fit: included in the reported uncertainty, but not compared with the limits.
+  double since_sd_m = 0.0;
+  /// If known; otherwise it is estimated from the places, within the usual range of segmentations.
+  std::optional<ModelError> model;
+  /// The model's error where the fit takes it to be smaller than it is: included in the reported
+  /// uncertainty, but not compared with the limits.
+  std::optional<ModelError> left_out;
 };
 
 /// A registration that includes pressed places.
 struct JoinedPlaces {
   Registration registration;
-  posterior::Joined joined;
+  /// For each place: its distance from the bone as predicted from all other places and the strokes,
+  /// and the SD of that (leave one out).
+  std::vector<double> off_m;
+  std::vector<double> off_sd_m;
+  ModelError model;  ///< as estimated from the places
 };
 
-/// Includes pressed places in a registration of strokes: the pose is that of the bone under the
-/// places. `accepted`, `reasons` and `provisional` are judged again by the errors that are left;
-/// everything else measured on the strokes stays. Of a registration without its `strokes` only pose
-/// and covariance count. Empty where it has no `uncertainty`, or a number is not finite. `options`:
-/// targets and limits.
+/// Includes pressed places, which `fit_presses` has fitted with the same model and strokes, in a
+/// registration: the pose is that of the bone, by strokes and places
+/// together, at the time the last place was pressed, and the uncertainty includes the model's own
+/// error. `accepted`, `reasons` and `provisional` are judged again; everything else measured on the
+/// strokes stays. Empty without places. `targets` as for the registration.
 [[nodiscard]] std::optional<JoinedPlaces> join_places(const VertebraModel& model,
                                                       const Registration& strokes,
-                                                      std::span<const PressedPlace> places,
-                                                      const PoseSearchRegistrationOptions& options,
-                                                      const MotionOfWorld& motion = {});
+                                                      const PressFit& fit, const PressModel& press,
+                                                      const PoseSearchRegistrationOptions& options);
 
 /// A place that is worth pressing.
 struct NextPlace {
@@ -53,13 +72,11 @@ struct NextPlace {
 inline constexpr double kPressesApart_m = 0.003;
 
 /// The place on the stroked bone that reduces the error at the worst target most if pressed in
-/// addition to `pressed`, which are joined already, at least `apart_m` from them. Empty if none
-/// reduces it.
-[[nodiscard]] std::optional<NextPlace> place_to_press(const VertebraModel& model,
-                                                      const JoinedPlaces& joined,
-                                                      std::span<const Point<World>> stroked,
-                                                      std::span<const PressedPlace> pressed,
-                                                      const PoseSearchRegistrationOptions& options,
-                                                      double apart_m = kPressesApart_m);
+/// addition to `pressed`, of which `fit` is, at least `apart_m` from them. Empty if none reduces
+/// it.
+[[nodiscard]] std::optional<NextPlace> place_to_press(
+    const VertebraModel& model, const Registration& strokes, std::span<const Point<World>> stroked,
+    std::span<const PressedPlace> pressed, const PressFit& fit, const PressModel& press,
+    const PoseSearchRegistrationOptions& options, double apart_m = kPressesApart_m);
 
 }  // namespace orthonav::nav

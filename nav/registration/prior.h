@@ -29,7 +29,7 @@ struct Prior {
 
   /// SD over the bone: below `exact_m` with this probability, evenly; above it evenly in its
   /// logarithm up to `worst_m`. Segmentations of vertebrae in CT are off by 0.3 to 0.8 mm
-  /// (hal/sim/error_model.h); models made of the bone itself are exact.
+  /// (nav/registration/model_error.h); models made of the bone itself are exact.
   double exact_share = 0.4;
   double exact_m = 0.0001;
   double worst_m = 0.001;
@@ -48,7 +48,7 @@ struct Prior {
   /// the log odds.
   double white_share_least = 0.01;
   double shortest_s = 0.05;  ///< correlation time of what is not, evenly in its logarithm
-  double longest_s = 10.0;   ///< real strokes wander over 0.26 m (docs/real-measurements.md): 7 s
+  double longest_s = 2.0;
 
   // A press of the tip on bare bone.
 

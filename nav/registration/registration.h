@@ -19,10 +19,6 @@
 
 namespace orthonav::nav {
 
-namespace posterior {
-struct Strokes;
-}
-
 /// Raise this with every change that prepares the same mesh differently: stored preparations
 /// (engine/case/model_cache.h) are then made again. A test checks it against the figures of a known
 /// bone.
@@ -166,9 +162,6 @@ struct Registration {
   /// SD over the bone of the tip's height: soft tissue, or a model that is not quite the bone.
   double field_sd_m = 0.0;
   std::vector<EstimatedHeight> heights;  ///< of the tip along the strokes, without noise
-  /// For pressed places to be joined with them (nav/registration/pressed_places.h). Not stored:
-  /// null after a restart.
-  std::shared_ptr<const posterior::Strokes> strokes;
   /// Correlation of the heights of neighbouring places on different strokes: about 0 over bare
   /// bone.
   double correlation_across_strokes = 0.0;

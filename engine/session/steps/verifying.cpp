@@ -9,6 +9,7 @@
 #include "base/translation.h"
 #include "engine/session/text/wording.h"
 #include "nav/guidance/predicted_error.h"
+#include "nav/registration/press_fit.h"
 #include "nav/registration/unstroked_surface.h"
 
 namespace orthonav::engine {
@@ -44,22 +45,17 @@ std::vector<float> smoothed(std::span<const float> each_m) {
 
 }  // namespace
 
-Verifying::Verifying(SessionState& work, Timestamp registered, Verifying before)
+Verifying::Verifying(SessionState& work, Timestamp registered)
     : options_(work.options),
       by_touch_(work.method.verification == Verification::kByTouch),
       anchored_(work.anchored()),
       strokes_(work.level().registration),
-      pressed_on_(work.level_in_work),
       registered_(registered),
       residuals_m_(smoothed(distances_m(work.level()))),
       unstroked_(nav::unstroked_surface(*work.level().plan.model,
                                         work.level().registration->world_from_vertebra,
                                         work.level().newest->points)) {
   LevelState& level = work.level();
-  const bool left_to_count = !before.strokes_ && before.pressed_on_ == pressed_on_;
-  if (anchored_ && left_to_count) {
-    pressed_ = std::move(before.pressed_);
-  }
   if (!anchored_) {
     // While more places are touched, the map moves by more than they reveal.
     options_.check_points.enough = 3;
@@ -70,19 +66,6 @@ Verifying::Verifying(SessionState& work, Timestamp registered, Verifying before)
                                    level.newest->points, options_.check_points);
   }
   judge(level);
-}
-
-Verifying Verifying::rejected(const SessionState& work) && {
-  Verifying out;
-  if (verdict_.advice.kind == nav::CheckAdvice::Kind::kUncertain) {
-    const std::size_t older = pressed_.size() - std::min(pressed_.size(), nav::kMaxCheckPoints);
-    out.pressed_.assign(pressed_.begin() + static_cast<std::ptrdiff_t>(older), pressed_.end());
-    out.pressed_on_ = work.level_in_work;
-    for (nav::PressedPlace& place : out.pressed_) {
-      place.time_s = 0.0;
-    }
-  }
-  return out;
 }
 
 void Verifying::begin_again(LevelState& level, double moved_m) {
@@ -109,11 +92,16 @@ void Verifying::judge(LevelState& level) {
   joined_.reset();
   next_.reset();
   const nav::VertebraModel& model = *level.plan.model;
-  if (by_touch_ && !pressed_.empty()) {
-    joined_ = nav::join_places(model, *strokes_, pressed_, limits_, motion_of_world());
+  const nav::PressModel press = press_model();
+  const auto fit = by_touch_ && !pressed_.empty()
+                       ? nav::fit_presses(model, *strokes_, pressed_, press)
+                       : std::nullopt;
+  if (fit) {
+    joined_ = nav::join_places(model, *strokes_, *fit, press, limits_);
   }
   if (joined_) {
-    next_ = nav::place_to_press(model, *joined_, level.newest->points, pressed_, limits_);
+    next_ =
+        nav::place_to_press(model, *strokes_, level.newest->points, pressed_, *fit, press, limits_);
   }
   if (strokes_->provisional) {
     // The registration includes the touched places, so it is shown with them.
@@ -132,14 +120,23 @@ void Verifying::judge(LevelState& level) {
   propose(level);
 }
 
-nav::MotionOfWorld Verifying::motion_of_world() const {
-  const double first_s = pressed_.front().time_s;
-  const double drift = options_.map_drift_m_per_sqrt_s;  // 0 with a patient reference
-  nav::MotionOfWorld out;
-  out.before_m =
-      std::max(out.before_m, std::hypot(strokes_->common.map_m, drift * std::sqrt(first_s)));
-  out.since_m = drift * std::sqrt(std::max(0.0, pressed_.back().time_s - first_s));
-  return out;
+nav::PressModel Verifying::press_model() const {
+  nav::PressModel press;
+  if (anchored_) {
+    press.moved_sd_m = std::max(press.moved_sd_m, strokes_->common.map_m);
+    press.drift_m_per_sqrt_s = options_.map_drift_m_per_sqrt_s;
+    return press;
+  }
+  press.model = nav::ModelError{};
+  press.left_out = nav::ModelError{nav::kUsualModelError_m};
+  if (!pressed_.empty()) {
+    const double first_s = pressed_.front().time_s;
+    const double drift = options_.map_drift_m_per_sqrt_s;
+    press.moved_sd_m =
+        std::max(press.moved_sd_m, std::hypot(strokes_->common.map_m, drift * std::sqrt(first_s)));
+    press.since_sd_m = drift * std::sqrt(std::max(0.0, pressed_.back().time_s - first_s));
+  }
+  return press;
 }
 
 void Verifying::propose(const LevelState& level) {

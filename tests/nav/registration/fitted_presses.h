@@ -3,18 +3,31 @@
 #include <optional>
 #include <span>
 
+#include "nav/registration/press_fit.h"
 #include "nav/registration/pressed_places.h"
 
 namespace orthonav::nav {
 
-/// `place_to_press` beside places that are joined first.
+/// `join_places` of places that are fitted first.
+inline std::optional<JoinedPlaces> fitted_and_joined(const VertebraModel& model,
+                                                     const Registration& strokes,
+                                                     std::span<const PressedPlace> places,
+                                                     const PoseSearchRegistrationOptions& options,
+                                                     const PressModel& press = {}) {
+  const auto fit = fit_presses(model, strokes, places, press);
+  return fit ? join_places(model, strokes, *fit, press, options) : std::nullopt;
+}
+
+/// `place_to_press` beside places that are fitted first.
 inline std::optional<NextPlace> next_place(const VertebraModel& model, const Registration& strokes,
                                            std::span<const Point<World>> stroked,
                                            std::span<const PressedPlace> pressed,
                                            const PoseSearchRegistrationOptions& options,
+                                           const PressModel& press = {},
                                            double apart_m = kPressesApart_m) {
-  const auto joined = join_places(model, strokes, pressed, options);
-  return joined ? place_to_press(model, *joined, stroked, pressed, options, apart_m) : std::nullopt;
+  const auto fit = fit_presses(model, strokes, pressed, press);
+  return fit ? place_to_press(model, strokes, stroked, pressed, *fit, press, options, apart_m)
+             : std::nullopt;
 }
 
 }  // namespace orthonav::nav

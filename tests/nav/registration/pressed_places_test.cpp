@@ -57,7 +57,7 @@ TEST(PressedPlaces, TakeTheErrorOfSoftTissueAway) {
     PressedBone bone(seed, 0.0025);
     provisional += bone.registration.provisional ? 1 : 0;
     const auto joined =
-        join_places(bone.model(), bone.registration, bone.press(10), bone.options).value();
+        fitted_and_joined(bone.model(), bone.registration, bone.press(10), bone.options).value();
     accepted += joined.registration.accepted ? 1 : 0;
     EXPECT_FALSE(joined.registration.accepted && bone.error_m(joined.registration) > kRightWithin_m)
         << "seed " << seed;
@@ -76,10 +76,12 @@ TEST(PressedPlaces, OneThatSlippedStandsOut) {
   PressedBone bone(3, 0.0015);
   auto places = bone.press(8);
   ASSERT_THAT(places, SizeIs(8));
-  const auto right = join_places(bone.model(), bone.registration, places, bone.options).value();
+  const auto right =
+      fitted_and_joined(bone.model(), bone.registration, places, bone.options).value();
   const auto up = right.registration.world_from_vertebra * Direction<Vertebra>{{0, 1, 0}};
   places[5].place = places[5].place + 0.006 * up.v;
-  const auto wrong = join_places(bone.model(), bone.registration, places, bone.options).value();
+  const auto wrong =
+      fitted_and_joined(bone.model(), bone.registration, places, bone.options).value();
   std::vector<CheckPoint> points(places.size());
   for (CheckPoint& point : points) {
     point.within = true;
@@ -95,12 +97,34 @@ TEST(PressedPlaces, TheSamePlaceAgainTellsHardlyMore) {
   PressedBone bone(4, 0.0025);
   auto places = bone.press(4);
   ASSERT_THAT(places, SizeIs(4));
-  const auto once = join_places(bone.model(), bone.registration, places, bone.options).value();
+  const auto once =
+      fitted_and_joined(bone.model(), bone.registration, places, bone.options).value();
   for (int copy = 0; copy < 4; ++copy) {
     places.insert(places.end(), places.begin(), places.begin() + 4);
   }
-  const auto often = join_places(bone.model(), bone.registration, places, bone.options).value();
+  const auto often =
+      fitted_and_joined(bone.model(), bone.registration, places, bone.options).value();
   EXPECT_GT(often.registration.predicted_tre_m, 0.9 * once.registration.predicted_tre_m);
+}
+
+TEST(PressedPlaces, AModelTakenAsExactStillCountsInTheUncertainty) {
+  PressedBone bone(6, 0.0025);
+  const auto places = bone.press(3);
+  ASSERT_THAT(places, SizeIs(3));
+  PressModel press;
+  press.model = ModelError{};
+  const auto exact =
+      fitted_and_joined(bone.model(), bone.registration, places, bone.options, press).value();
+  press.left_out = ModelError{0.0005};
+  const auto told =
+      fitted_and_joined(bone.model(), bone.registration, places, bone.options, press).value();
+  EXPECT_EQ(told.registration.predicted_tre_m, exact.registration.predicted_tre_m) << "the limits";
+  EXPECT_EQ(told.registration.world_from_vertebra, exact.registration.world_from_vertebra);
+  const Point<Vertebra> middle{bone.model().reachable_axes().centre_m};
+  const double sd_m = exact.registration.uncertainty->predicted_tre_m(middle);
+  const double told_sd_m = told.registration.uncertainty->predicted_tre_m(middle);
+  EXPECT_GT(told_sd_m, sd_m);
+  EXPECT_LT(told_sd_m, std::hypot(sd_m, std::sqrt(3.0) * 0.0005));
 }
 
 TEST(PressedPlaces, AreOfNoUseWhereTheStrokesLeaveAMotionOpen) {
@@ -108,16 +132,17 @@ TEST(PressedPlaces, AreOfNoUseWhereTheStrokesLeaveAMotionOpen) {
   EXPECT_TRUE(bone.registration.accepted);
   Registration alone = bone.registration;
   alone.runner_up = alone.world_from_vertebra;
-  const auto joined = join_places(bone.model(), alone, bone.press(3), bone.options).value();
+  const auto joined = fitted_and_joined(bone.model(), alone, bone.press(3), bone.options).value();
   EXPECT_EQ(joined.registration.runner_up, joined.registration.world_from_vertebra)
       << "without a rival there is none afterwards";
   Registration open = bone.registration;
   open.uncertainty.reset();
   const auto places = bone.press(3);
-  EXPECT_FALSE(join_places(bone.model(), open, places, bone.options));
+  EXPECT_FALSE(fitted_and_joined(bone.model(), open, places, bone.options));
+  EXPECT_FALSE(fitted_and_joined(bone.model(), bone.registration, {}, bone.options));
   EXPECT_FALSE(next_place(bone.model(), open, {}, {}, bone.options));
   const PressedPlace nowhere{{{std::nan(""), 0, 0}}, 0.0};
-  EXPECT_FALSE(join_places(bone.model(), bone.registration, {&nowhere, 1}, bone.options));
+  EXPECT_FALSE(fitted_and_joined(bone.model(), bone.registration, {&nowhere, 1}, bone.options));
 }
 
 /// Objections that pressed places cannot settle remain.
@@ -126,7 +151,7 @@ TEST(PressedPlaces, TakeNoOtherReasonAway) {
   Registration refused = bone.registration;
   refused.accepted = false;
   refused.reasons = {{RefusalReason::Kind::kMirrored, 9.0, 2.5}};
-  const auto joined = join_places(bone.model(), refused, bone.press(6), bone.options).value();
+  const auto joined = fitted_and_joined(bone.model(), refused, bone.press(6), bone.options).value();
   EXPECT_FALSE(joined.registration.accepted);
   EXPECT_FALSE(joined.registration.provisional);
   EXPECT_THAT(joined.registration.reasons, SizeIs(1));

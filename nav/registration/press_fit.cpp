@@ -1,0 +1,282 @@
+#include "nav/registration/press_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Dense>
+#include <limits>
+
+#include "nav/registration/press_covariance.h"
+
+namespace orthonav::nav {
+namespace {
+
+using Pose6 = Eigen::Matrix<double, 6, 1>;
+using Covariance6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+using Rows6 = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
+
+/// Nearer to the surface than this, the direction to it is meaningless.
+constexpr double kOnSurface_m = 1e-5;
+
+Pose6 pose_of(const std::array<double, 6>& step) { return Eigen::Map<const Pose6>(step.data()); }
+
+/// The heights of places at a pose (step 0), minus the mean height of a press.
+struct Heights {
+  std::vector<PressedHeight> at;
+  Eigen::VectorXd above_m;
+  Rows6 shared;             ///< with the pose now
+  Eigen::MatrixXd rest_m2;  ///< covariance without the model's error
+};
+
+/// The problem that every round solves.
+struct PressProblem {
+  const VertebraModel& model;
+  Transform<Vertebra, World> from_world;
+  std::span<const PressedPlace> places;
+  PressCovariance prior;
+  Covariance6 now;  ///< of the pose, with World's drift until the last press
+};
+
+Heights heights_of(const PressProblem& problem, const Pose6& step) {
+  const auto n = static_cast<Eigen::Index>(problem.places.size());
+  const PressCovariance& prior = problem.prior;
+  Heights out{{}, Eigen::VectorXd(n), Rows6(n, 6), Eigen::MatrixXd(n, n)};
+  std::array<double, 6> here_step{};
+  Eigen::Map<Pose6>(here_step.data()) = step;
+  const auto here = moved_by(here_step, prior.centre_m) * problem.from_world;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const PressedPlace& place = problem.places[static_cast<std::size_t>(i)];
+    const Vec3 p = (here * place.place).v;
+    const auto nearest = problem.model.reachable_surface().nearest(p);
+    const double sign = problem.model.surface().contains(p) ? -1.0 : 1.0;
+    const bool apart = nearest && nearest->distance_m > kOnSurface_m;
+    const Vec3 up = apart     ? (sign / nearest->distance_m) * (p - nearest->point_m)
+                    : nearest ? nearest->normal
+                              : Vec3{};
+    out.at.push_back({p, up, place.time_s, place.sd_m});
+    const double height_m =
+        nearest ? sign * nearest->distance_m : std::numeric_limits<double>::quiet_NaN();
+    out.above_m(i) = height_m - prior.press.height_m - prior.press.tip_radius_m -
+                     pose_of(prior.slope(out.at.back())).dot(step);
+    out.shared.row(i) = pose_of(prior.with_pose(out.at.back())).transpose();
+    for (Eigen::Index k = 0; k <= i; ++k) {
+      const PressedHeight& other = out.at[static_cast<std::size_t>(k)];
+      out.rest_m2(i, k) = out.rest_m2(k, i) = prior.between_m2(out.at.back(), other);
+    }
+    out.rest_m2(i, i) += place.sd_m * place.sd_m;
+  }
+  return out;
+}
+
+/// The result for one field.
+struct Answer {
+  ModelError model;
+  double log_weight = 0.0;  ///< prior and evidence, up to a constant
+  Pose6 step = Pose6::Zero();
+  Covariance6 covariance = Covariance6::Zero();
+  Eigen::MatrixXd inverse;
+  Eigen::VectorXd off_m;
+  Eigen::VectorXd off_variance_m2;
+};
+
+std::optional<Answer> answer(const Heights& heights, const ModelErrorHypothesis& by,
+                             const Covariance6& now) {
+  const Eigen::Index n = heights.above_m.size();
+  Eigen::MatrixXd spread = heights.rest_m2;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index k = 0; k < n; ++k) {
+      spread(i, k) += shared_error_m2(by.error, heights.at[static_cast<std::size_t>(i)].at_m,
+                                      heights.at[static_cast<std::size_t>(k)].at_m);
+    }
+  }
+  const Eigen::LLT<Eigen::MatrixXd> llt(spread);
+  if (llt.info() != Eigen::Success || !heights.above_m.allFinite()) {
+    return std::nullopt;
+  }
+  Answer out;
+  out.model = by.error;
+  out.inverse = llt.solve(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::VectorXd weighed = out.inverse * heights.above_m;
+  // The step that brings the heights to the mean height of a press.
+  out.step = -heights.shared.transpose() * weighed;
+  out.covariance = now - heights.shared.transpose() * out.inverse * heights.shared;
+  out.covariance = 0.5 * (out.covariance + out.covariance.transpose()).eval();
+  const Eigen::MatrixXd lower = llt.matrixL();
+  out.log_weight = by.log_probability - 0.5 * heights.above_m.dot(weighed) -
+                   lower.diagonal().array().log().sum();
+  out.off_variance_m2 = out.inverse.diagonal().cwiseInverse();
+  out.off_m = weighed.cwiseProduct(out.off_variance_m2);
+  return out;
+}
+
+/// Weights that sum to 1 from logarithms.
+Eigen::ArrayXd normalized(const Eigen::ArrayXd& logs) {
+  const Eigen::ArrayXd weights = (logs - logs.maxCoeff()).exp();
+  return weights / weights.sum();
+}
+
+/// Compares each place with the prediction from all others, with the model error estimated from
+/// those alone; otherwise a press that slipped would look like a bad model.
+void leave_one_out(const std::vector<Answer>& answers, PressFit& out) {
+  const auto fields = static_cast<Eigen::Index>(answers.size());
+  for (Eigen::Index i = 0; i < answers.front().off_m.size(); ++i) {
+    Eigen::ArrayXd logs(fields);
+    Eigen::ArrayXd off_m(fields);
+    Eigen::ArrayXd variance_m2(fields);
+    for (Eigen::Index k = 0; k < fields; ++k) {
+      const Answer& a = answers[static_cast<std::size_t>(k)];
+      off_m(k) = a.off_m(i);
+      variance_m2(k) = a.off_variance_m2(i);
+      logs(k) = a.log_weight + 0.5 * off_m(k) * off_m(k) / variance_m2(k) +
+                0.5 * std::log(variance_m2(k));
+    }
+    const Eigen::ArrayXd weights = normalized(logs);
+    const double mean_m = (weights * off_m).sum();
+    out.off_m.push_back(mean_m);
+    out.off_sd_m.push_back(std::sqrt((weights * (variance_m2 + (off_m - mean_m).square())).sum()));
+  }
+}
+
+std::vector<Answer> answers_of(const Heights& heights,
+                               std::span<const ModelErrorHypothesis> hypotheses,
+                               const Covariance6& now) {
+  std::vector<Answer> answers;
+  for (const ModelErrorHypothesis& by : hypotheses) {
+    auto found = answer(heights, by, now);
+    if (!found || !found->step.allFinite()) {
+      return {};
+    }
+    answers.push_back(std::move(*found));
+  }
+  return answers;
+}
+
+Eigen::ArrayXd weights_of(const std::vector<Answer>& answers) {
+  Eigen::ArrayXd logs(static_cast<Eigen::Index>(answers.size()));
+  std::transform(answers.begin(), answers.end(), logs.begin(),
+                 [](const Answer& a) { return a.log_weight; });
+  return normalized(logs);
+}
+
+Pose6 mean_of(const std::vector<Answer>& answers) {
+  const Eigen::ArrayXd weights = weights_of(answers);
+  Pose6 mean = Pose6::Zero();
+  for (std::size_t k = 0; k < answers.size(); ++k) {
+    mean += weights(static_cast<Eigen::Index>(k)) * answers[k].step;
+  }
+  return mean;
+}
+
+/// The heights at a step of the pose, and the resulting answers.
+struct Round {
+  std::vector<Answer> answers;
+  Heights heights;
+  Pose6 mean;
+};
+
+/// Nothing if a number is not finite.
+std::optional<Round> round_at(const PressProblem& problem, const Pose6& step,
+                              std::span<const ModelErrorHypothesis> by) {
+  Heights heights = heights_of(problem, step);
+  std::vector<Answer> answers = answers_of(heights, by, problem.now);
+  if (answers.empty()) {
+    return std::nullopt;
+  }
+  const Pose6 mean = mean_of(answers);
+  return mean.allFinite() ? std::optional(Round{std::move(answers), std::move(heights), mean})
+                          : std::nullopt;
+}
+
+/// Repeats rounds until the pose hardly moves; returns the last one.
+std::optional<Round> last_round(const PressProblem& problem) {
+  constexpr int kRounds = 6;
+  constexpr int kRoundsByAll = 2;
+  constexpr double kStands_m = 1e-6;
+  constexpr double kLever_m = 0.03;
+  const std::optional<ModelError>& known = problem.prior.press.model;
+  // The directions to the bone do not depend on the model error: a typical one is used to find
+  // them, and all of them are used for the result.
+  const std::vector<ModelErrorHypothesis> usual = {
+      {known.value_or(ModelError{kUsualModelError_m}), 0.0}};
+  Pose6 at = Pose6::Zero();
+  std::optional<Round> round;
+  double moved_m = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kRounds && moved_m > kStands_m; ++k) {
+    round = round_at(problem, at, usual);
+    if (!round) {
+      return std::nullopt;
+    }
+    moved_m = (round->mean - at).head<3>().norm() + kLever_m * (round->mean - at).tail<3>().norm();
+    at = round->mean;
+  }
+  const auto all = known ? usual : model_error_hypotheses();
+  for (int k = 0; k < kRoundsByAll && round; ++k) {
+    round = round_at(problem, round->mean, all);
+  }
+  return round;
+}
+
+void put(Round round, PressFit& out) {
+  const std::vector<Answer>& answers = round.answers;
+  const Eigen::ArrayXd weights = weights_of(answers);
+  Covariance6 covariance = Covariance6::Zero();
+  double sd_m2 = 0.0;
+  Eigen::Index most = 0;
+  weights.maxCoeff(&most);
+  out.model.length_m = 0.0;
+  for (std::size_t k = 0; k < answers.size(); ++k) {
+    const Pose6 off = answers[k].step - round.mean;
+    const double weight = weights(static_cast<Eigen::Index>(k));
+    covariance += weight * (answers[k].covariance + off * off.transpose());
+    sd_m2 += weight * answers[k].model.sd_m * answers[k].model.sd_m;
+    out.model.length_m += weight * answers[k].model.length_m;
+  }
+  out.model.sd_m = std::sqrt(sd_m2);
+  Eigen::Map<Pose6>(out.step.data()) = round.mean;
+  Eigen::Map<Covariance6>(out.covariance.data()) = covariance;
+  const Answer& likeliest = answers[static_cast<std::size_t>(most)];
+  out.likeliest = likeliest.model;
+  Eigen::Map<Covariance6>(out.likeliest_covariance.data()) = likeliest.covariance;
+  out.inverse_1_m2.assign(likeliest.inverse.data(),
+                          likeliest.inverse.data() + likeliest.inverse.size());
+  out.heights = std::move(round.heights.at);
+  out.shared.resize(out.heights.size());
+  for (std::size_t i = 0; i < out.shared.size(); ++i) {
+    Eigen::Map<Pose6>(out.shared[i].data()) =
+        round.heights.shared.row(static_cast<Eigen::Index>(i)).transpose();
+  }
+  leave_one_out(answers, out);
+}
+
+}  // namespace
+
+std::optional<PressFit> fit_presses(const VertebraModel& model, const Registration& strokes,
+                                    std::span<const PressedPlace> places, const PressModel& press) {
+  if (!strokes.uncertainty) {
+    return std::nullopt;
+  }
+  PressFit out;
+  out.centre_m = strokes.uncertainty->centre_m();
+  for (const PressedPlace& place : places) {
+    out.now_s = std::max(out.now_s, place.time_s);
+  }
+  const PoseUncertainty own = without_common(*strokes.uncertainty, strokes.common);
+  out.before = own.covariance();
+  Eigen::Map<Covariance6>(out.before.data()).topLeftCorner<3, 3>().diagonal().array() +=
+      press.moved_sd_m * press.moved_sd_m;
+  const PressCovariance prior{out.before, out.centre_m, press};
+  const auto now = prior.walked(out.now_s);
+  auto round = last_round({model, strokes.world_from_vertebra.inverse(), places, prior,
+                           Eigen::Map<const Covariance6>(now.data())});
+  if (!round) {
+    return std::nullopt;
+  }
+  put(std::move(*round), out);
+  return out;
+}
+
+Transform<World, Vertebra> PressFit::moved(
+    const Transform<World, Vertebra>& world_from_vertebra) const {
+  return world_from_vertebra * moved_by(step, centre_m).inverse();
+}
+
+}  // namespace orthonav::nav
