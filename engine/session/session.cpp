@@ -233,13 +233,15 @@ std::optional<FollowUpEvent> Session::begin_level(Timestamp time) {
 
 void Session::show_registration(Timestamp time) {
   work_.level().check_points.clear();
-  verifying_ = Verifying(work_, time);
+  verifying_ = Verifying(work_, time, std::move(verifying_));
 }
 
 void Session::clear_level(Timestamp time) {
   work_.level().forget_registration();
   digitizing_.clear();
+  Verifying left = std::move(verifying_).rejected(work_);
   forget_registration();
+  verifying_ = std::move(left);
   work_.observer->level_cleared(time, work_.level());
 }
 

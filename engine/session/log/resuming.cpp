@@ -106,7 +106,7 @@ std::optional<Event> Resuming::resume_level(SessionState& work, const RodTemplat
     return Event::kRegistrationRestored;
   }
   // If the landmark has moved, its registration is verified again.
-  verifying = Verifying(work, time);
+  verifying = Verifying(work, time, {});
   return Event::kAcceptanceRestored;
 }
 

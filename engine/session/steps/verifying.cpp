@@ -45,17 +45,22 @@ std::vector<float> smoothed(std::span<const float> each_m) {
 
 }  // namespace
 
-Verifying::Verifying(SessionState& work, Timestamp registered)
+Verifying::Verifying(SessionState& work, Timestamp registered, Verifying before)
     : options_(work.options),
       by_touch_(work.method.verification == Verification::kByTouch),
       anchored_(work.anchored()),
       strokes_(work.level().registration),
+      pressed_on_(work.level_in_work),
       registered_(registered),
       residuals_m_(smoothed(distances_m(work.level()))),
       unstroked_(nav::unstroked_surface(*work.level().plan.model,
                                         work.level().registration->world_from_vertebra,
                                         work.level().newest->points)) {
   LevelState& level = work.level();
+  const bool left_to_count = !before.strokes_ && before.pressed_on_ == pressed_on_;
+  if (anchored_ && left_to_count) {
+    pressed_ = std::move(before.pressed_);
+  }
   if (!anchored_) {
     // While more places are touched, the map moves by more than they reveal.
     options_.check_points.enough = 3;
@@ -66,6 +71,19 @@ Verifying::Verifying(SessionState& work, Timestamp registered)
                                    level.newest->points, options_.check_points);
   }
   judge(level);
+}
+
+Verifying Verifying::rejected(const SessionState& work) && {
+  Verifying out;
+  if (verdict_.advice.kind == nav::CheckAdvice::Kind::kUncertain) {
+    const std::size_t older = pressed_.size() - std::min(pressed_.size(), nav::kMaxCheckPoints);
+    out.pressed_.assign(pressed_.begin() + static_cast<std::ptrdiff_t>(older), pressed_.end());
+    out.pressed_on_ = work.level_in_work;
+    for (nav::PressedPlace& place : out.pressed_) {
+      place.time_s = 0.0;
+    }
+  }
+  return out;
 }
 
 void Verifying::begin_again(LevelState& level, double moved_m) {

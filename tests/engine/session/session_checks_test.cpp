@@ -223,6 +223,31 @@ TEST(ProvisionalRegistration, AsksForMorePlacesAndTakesOneBackAsIfItHadNotBeen) 
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kReject);
 }
 
+/// Touched deeper than the strokes showed, rejected, and registered again as before.
+double depth_shown_again_m(bool uncertain) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByTouch, false, true);
+  s.registration = provisional();
+  std::array<double, 36> covariance = s.registration.uncertainty->covariance();
+  covariance[0] = 0.0015 * 0.0015;
+  s.registration.uncertainty = nav::PoseUncertainty({}, covariance);
+  s.registers_first_level();
+  const Vec3 deeper{0, -0.0012, 0};
+  for (std::size_t k = 0; k < (uncertain ? nav::kMaxCheckPoints : 3); ++k) {
+    s.touches(std::array{kFirst, kSecond, kThird}[k % 3] + deeper);
+  }
+  EXPECT_EQ(advice(s.pair()).kind == nav::CheckAdvice::Kind::kUncertain, uncertain);
+  s.says("reject level");
+  s.registers_first_level();
+  EXPECT_EQ(step_of(s.pair()), "verify L4");
+  EXPECT_TRUE(s.pair().levels[0].check_points.empty());
+  return s.pair().levels[0].registration->world_from_vertebra.translation().y;
+}
+
+TEST(ManyTouches, CountAgainWhereOnlyTheErrorAtTheScrewsSpokeAgainstThem) {
+  EXPECT_LT(depth_shown_again_m(true), -0.001);
+  EXPECT_EQ(depth_shown_again_m(false), 0.0) << "the twin: rejected for a reason of the surgeon's";
+}
+
 TEST(ManyTouches, AreAskedForAsLongAsTheyTell) {
   SessionOptions options;
   options.check_points.enough = 12;
