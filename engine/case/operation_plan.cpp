@@ -122,33 +122,43 @@ Result<Operation> plan_operation(const Case& source, const std::vector<std::stri
   return plan_operation(source, labels, none);
 }
 
-Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels,
-                                 ModelCache& cache) {
+Result<Operation> plan_without_models(const Case& source, const std::vector<std::string>& labels) {
   const auto ordered = levels_to_operate(source, labels);
   if (!ordered) {
     return ordered.error();
   }
   Operation operation = without_levels(source);
-  PreparedLevels prepared(source, cache);
   for (const std::string& label : *ordered) {
-    const auto model = prepared.model(label);
+    operation.levels.push_back({label, nullptr, source.find(label)->screws, {}});
+  }
+  return operation;
+}
+
+Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels,
+                                 ModelCache& cache) {
+  auto operation = plan_without_models(source, labels);
+  if (!operation) {
+    return operation;
+  }
+  PreparedLevels prepared(source, cache);
+  for (OperatedLevel& level : operation->levels) {
+    const auto model = prepared.model(level.label);
     if (!model) {
       return model.error();
     }
-    OperatedLevel level{label, *model, source.find(label)->screws, {}};
+    level.model = *model;
     for (const nav::ScrewPlan& screw : level.screws) {
       if (const auto problem = breach_problem(**model, screw)) {
-        return Error{"case '" + source.name + "': " + label + " " + *problem};
+        return Error{"case '" + source.name + "': " + level.label + " " + *problem};
       }
     }
-    for (const std::string& other : other_levels(source, label)) {
+    for (const std::string& other : other_levels(source, level.label)) {
       const auto other_model = prepared.model(other);
       if (!other_model) {
         return other_model.error();
       }
       level.neighbours.push_back({other, *other_model});
     }
-    operation.levels.push_back(std::move(level));
   }
   return operation;
 }

@@ -26,6 +26,10 @@ Result<Operation> plan_operation(const Case& source, const std::vector<std::stri
                                  ModelCache& cache);
 Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels = {});
 
+/// The same without models: of levels that are shown, but not registered.
+Result<Operation> plan_without_models(const Case& source,
+                                      const std::vector<std::string>& labels = {});
+
 /// Of rods alone: whatever levels the case has, none is prepared or registered.
 [[nodiscard]] Operation plan_rods_alone(const Case& source);
 

@@ -9,7 +9,6 @@
 #include "base/random.h"
 #include "base/reason.h"
 #include "base/translation.h"
-#include "nav/geometry/matrix_as.h"
 #include "nav/registration/pose_candidates.h"
 #include "nav/registration/shaft_collision.h"
 

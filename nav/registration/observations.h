@@ -20,7 +20,7 @@ struct StrokePoint {
 };
 
 /// A height above the bone that was measured at one place, after the strokes: a press of the tip on
-/// bare bone (`press` in prior.h), or a place of a depth image.
+/// bare bone, or a place of a depth image.
 struct Height {
   Point<World> at;
   double mean_m = 0.0;  ///< to be expected
@@ -30,8 +30,8 @@ struct Height {
   /// Of what it has in common with all others of the same act: all presses, or one image.
   double act_sd_m = 0.0;
   int act = 0;
-  /// Unit, World: what is in common shifts the place along it (a sensor's offset along its ray).
-  /// Zero: it is a height.
+  /// Unit, World: what an act has in common shifts its places along it, such as a sensor's offset
+  /// along its ray. Zero: it adds to the heights.
   Vec3 along{};
 };
 

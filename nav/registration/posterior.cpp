@@ -179,8 +179,8 @@ Hand hand_at(const Observations& observations, const Prior& prior,
   return out;
 }
 
-// What a height consists of, as columns: pose (6), valley, the bone's shift since the strokes (3;
-// of strokes where heights are joined with them), standoff, size, curvature; the height.
+// What a height consists of, as columns: pose (6), valley, the bone's shift since (3; of strokes,
+// where heights were measured after them), standoff, size, curvature; the height.
 constexpr Eigen::Index kValley = 6;
 constexpr Eigen::Index kShift = 7;
 constexpr Eigen::Index kMoved = 10;  ///< how many are integrated whatever else is
@@ -1044,14 +1044,14 @@ struct Strokes {
   Touches at;  ///< the pose that the columns are of; no points
   Hand hand;
   double tip_radius_m = 0.0;
-  std::vector<Unit> units;  ///< their places
+  std::vector<Unit> units;
   struct AtNode {
     Basis basis;
     double noise_m = 0.0;
     Eigen::MatrixXd root;
     Columns whitened;
   };
-  std::vector<AtNode> nodes;  ///< the likeliest first
+  std::vector<AtNode> nodes;
 };
 
 namespace {
@@ -1068,7 +1068,7 @@ std::shared_ptr<const Strokes> kept_of(Averaged::Units& units, const Touches& t,
   for (const auto& [node, a] : answers) {
     const auto& factor = units.factor(node);
     Columns whitened = factor->root.triangularView<Eigen::Lower>().solve(columns);
-    // The bone's shift until the heights takes the strokes along.
+    // A shift of the bone takes it away from the strokes, as a step of the points does.
     whitened.middleCols<3>(kShift) = -whitened.leftCols<3>();
     const Basis basis = basis_of(units, *factor, whitened, node);
     out->nodes.push_back({basis, a.part.noise_m, factor->root, std::move(whitened)});
@@ -1302,7 +1302,7 @@ std::optional<Joined> joined(const std::shared_ptr<const Strokes>& strokes, cons
     at.root = llt.matrixL();
   }
   Vector6 step = Vector6::Zero();  // of the points, m and rad
-  std::vector<std::size_t> node_of;
+  // An answer of every node; empty if one has none.
   const auto answers_here = [&](Asked asked) {
     const auto from_world = stepped(strokes->at, step);
     const Vec3 centre_m = strokes->at.centre_m + Vec3{step(0), step(1), step(2)};
@@ -1315,7 +1315,6 @@ std::optional<Joined> joined(const std::shared_ptr<const Strokes>& strokes, cons
       columns(i, kHeight) += columns.row(i).head<6>() * moved;
     }
     Answers out;
-    node_of.clear();
     for (std::size_t k = 0; k < at_nodes.size(); ++k) {
       const Strokes::AtNode& node = strokes->nodes[k];
       AtHeights& at = at_nodes[k];
@@ -1325,10 +1324,11 @@ std::optional<Joined> joined(const std::shared_ptr<const Strokes>& strokes, cons
       basis.rows += at.whitened.transpose() * at.whitened;
       basis.dimensions += static_cast<double>(n);
       basis.log_determinant += 2.0 * at.root.diagonal().array().log().sum();
-      if (auto found = concluded(strokes->prior, basis, moved_sd_m / node.noise_m, asked)) {
-        out.emplace_back(basis.node, *found);
-        node_of.push_back(k);
+      const auto found = concluded(strokes->prior, basis, moved_sd_m / node.noise_m, asked);
+      if (!found) {
+        return Answers{};
       }
+      out.emplace_back(basis.node, *found);
     }
     return out;
   };
@@ -1357,7 +1357,7 @@ std::optional<Joined> joined(const std::shared_ptr<const Strokes>& strokes, cons
     double most = kNever;
     for (std::size_t k = 0; k < answers.size(); ++k) {
       const Answer& a = answers[k].second;
-      const AtHeights& at = at_nodes[node_of[k]];
+      const AtHeights& at = at_nodes[k];
       const double noise_m2 = a.part.noise_m * a.part.noise_m;
       Eigen::Matrix<double, Eigen::Dynamic, kMoved + 1> moves(n, kMoved + 1);
       moves << at.whitened.leftCols<kMoved>(), at.whitened.col(kStandoff);
@@ -1394,7 +1394,7 @@ std::optional<Joined> joined(const std::shared_ptr<const Strokes>& strokes, cons
   });
   constexpr std::size_t kFew = 4;
   for (const std::size_t k : std::span(order).first(std::min(kFew, order.size()))) {
-    likeliest->nodes.push_back({node_of[k], std::move(at_nodes[node_of[k]]), answers[k].second});
+    likeliest->nodes.push_back({k, std::move(at_nodes[k]), answers[k].second});
   }
   out.likeliest = likeliest;
   sort_by_weight(answers);

@@ -50,17 +50,6 @@ struct Prior {
   double shortest_s = 0.05;  ///< correlation time of what is not, evenly in its logarithm
   double longest_s = 2.0;
 
-  // A press of the tip on bare bone.
-
-  /// What is left between tip and bone: mean, SD of what all presses have in common, SD of each.
-  /// Guesses. Common SD doubled: presses tell less of the direction that all of them share.
-  double press_gap_m = 0.0002;
-  double press_common_sd_m = 0.0002;
-  double press_sd_m = 0.0003;
-  /// SD along each axis of the bone's motion in World between strokes and presses: a map that
-  /// drifts, a spine that gives way. Doubled: strokes count less beside presses.
-  double moved_sd_m = 0.0003;
-
   /// A point that has nothing to do with the bone, under every hypothesis: its share, and the range
   /// over which its height is even. Lifted pointers reach 10 mm.
   double outlier_share = 0.05;

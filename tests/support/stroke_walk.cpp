@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angle.h"
 
 namespace orthonav::test {
 namespace {
@@ -18,7 +19,7 @@ constexpr double kFlattest = 0.12;
 /// Over the canal: how far in front of its back wall the tip goes, as a fraction of its depth.
 constexpr double kDeepest = 0.5;
 /// How the handle slants along a lane.
-constexpr double kSlant_rad = 6.0 * (std::numbers::pi / 180.0);
+constexpr double kSlant_rad = 6.0 * kRadiansPerDegree;
 
 bool is_spinous_side(BoneRegion r) {
   return r == BoneRegion::kLeftSpinousSide || r == BoneRegion::kRightSpinousSide;

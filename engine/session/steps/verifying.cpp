@@ -57,8 +57,7 @@ Verifying::Verifying(SessionState& work, Timestamp registered, Verifying before)
                                         work.level().registration->world_from_vertebra,
                                         work.level().newest->points)) {
   LevelState& level = work.level();
-  const bool left_to_count = !before.strokes_ && before.pressed_on_ == pressed_on_;
-  if (anchored_ && left_to_count) {
+  if (!before.strokes_ && before.pressed_on_ == pressed_on_) {
     pressed_ = std::move(before.pressed_);
   }
   if (!anchored_) {
@@ -75,7 +74,7 @@ Verifying::Verifying(SessionState& work, Timestamp registered, Verifying before)
 
 Verifying Verifying::rejected(const SessionState& work) && {
   Verifying out;
-  if (verdict_.advice.kind == nav::CheckAdvice::Kind::kUncertain) {
+  if (anchored_ && verdict_.advice.kind == nav::CheckAdvice::Kind::kUncertain) {
     const std::size_t older = pressed_.size() - std::min(pressed_.size(), nav::kMaxCheckPoints);
     out.pressed_.assign(pressed_.begin() + static_cast<std::ptrdiff_t>(older), pressed_.end());
     out.pressed_on_ = work.level_in_work;

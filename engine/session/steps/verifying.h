@@ -19,10 +19,11 @@ class Verifying {
   /// Verifies the level's registration with the points it was computed from; both must exist. With
   /// a patient reference many places are asked for; on the map, which moves while places are
   /// touched, three that are far apart are enough, and each is assumed to lie on the model's
-  /// surface. `before`: the object in force until now.
+  /// surface. `before`: the object in force until now; what `rejected` left in it counts.
   Verifying(SessionState& work, Timestamp registered, Verifying before);
-  /// The level is rejected. Where only the error at the screws spoke against it, its places still
-  /// tell where the bone is: they count in the next registration of this level.
+  /// The surgeon rejects the level. If only the error at the screws spoke against it, the touched
+  /// places still show where the bone is: they count in the level's next registration. On the map,
+  /// which moves, none does.
   [[nodiscard]] Verifying rejected(const SessionState& work) &&;
 
   /// Verifies the accepted registration again after a movement by `moved_m`: the places touched
@@ -61,7 +62,7 @@ class Verifying {
   std::optional<nav::Registration> strokes_;   ///< from the strokes alone
   /// The level's check points, after those of earlier verifications.
   std::vector<nav::PressedPlace> pressed_;
-  std::size_t pressed_on_ = 0;  ///< number of that level
+  std::size_t pressed_on_ = 0;  ///< the level, by its number in the operation
   Timestamp registered_{};
   std::optional<nav::JoinedPlaces>
       joined_;                          ///< strokes and places; nothing if they can't be joined

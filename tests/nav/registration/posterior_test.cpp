@@ -15,6 +15,7 @@
 #include "engine/phantom/phantom.h"
 #include "nav/geometry/triangle.h"
 #include "nav/registration/decision.h"
+#include "nav/registration/pressed_places.h"
 #include "tests/support/digitized_strokes.h"
 #include "tests/support/stroke_truths.h"
 
@@ -353,16 +354,17 @@ Posterior to_join(const Observations& observations, const Transform<World, Verte
 }
 
 Height press_at(Point<World> at) {
-  const Prior prior;
-  return {at, prior.press_gap_m, 0.0001, prior.press_sd_m, prior.press_common_sd_m};
+  const PressModel press;
+  return {at, press.height_m, 0.0001, press.sd_m, press.common_sd_m};
 }
 
 /// One after the other where most of the error goes, on bare bone, after strokes over 2 mm of
 /// uneven tissue.
 TEST(Posterior, PressesTellWhatTissueHides) {
   constexpr std::size_t kPresses = 15;
+  const std::vector<Point<Vertebra>> places = reachable();
   const BoneSurface surface(*bone().model);
-  const Prior prior;
+  const PressModel press;
   double squares = 0.0, before_m2 = 0.0, after_m2 = 0.0, foreseen_m2 = 0.0;
   constexpr int kRuns = 5;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
@@ -370,15 +372,15 @@ TEST(Posterior, PressesTellWhatTissueHides) {
     const auto o = strokes(test::StrokeVariant::kFull, seed, uneven_tissue(), &truth);
     const Posterior first = to_join(o, truth);
     Random random(seed);
-    const double common_m = random.normal(prior.press_gap_m, prior.press_common_sd_m);
-    const Vec3 moved{random.normal(0.0, prior.moved_sd_m), random.normal(0.0, prior.moved_sd_m),
-                     random.normal(0.0, prior.moved_sd_m)};
+    const double common_m = random.normal(press.height_m, press.common_sd_m);
+    const Vec3 moved{random.normal(0.0, press.moved_sd_m), random.normal(0.0, press.moved_sd_m),
+                     random.normal(0.0, press.moved_sd_m)};
     std::vector<Height> presses;
-    Joined now = joined(first.strokes, surface, presses, prior.moved_sd_m).value();
+    Joined now = joined(first.strokes, surface, presses, press.moved_sd_m).value();
     double foreseen_last_m = 0.0;
     while (presses.size() < kPresses) {
       std::vector<Height> candidates;
-      for (const Point<Vertebra>& place : reachable()) {
+      for (const Point<Vertebra>& place : places) {
         candidates.push_back(press_at(now.posterior.world_from_vertebra * place));
       }
       const auto foreseen = now.foreseen(surface, candidates);
@@ -388,11 +390,11 @@ TEST(Posterior, PressesTellWhatTissueHides) {
       }
       const auto best = std::min_element(left_m.begin(), left_m.end()) - left_m.begin();
       foreseen_last_m = left_m[static_cast<std::size_t>(best)];
-      const Vec3 place = reachable()[static_cast<std::size_t>(best)].v;
+      const Vec3 place = places[static_cast<std::size_t>(best)].v;
       const Vec3 out = surface.near(place, surface.place_near(place)).out;
-      const double gap_m = common_m + random.normal(0.0, prior.press_sd_m);
+      const double gap_m = common_m + random.normal(0.0, press.sd_m);
       presses.push_back(press_at(truth * Point<Vertebra>{place + gap_m * out} + moved));
-      now = joined(first.strokes, surface, presses, prior.moved_sd_m).value();
+      now = joined(first.strokes, surface, presses, press.moved_sd_m).value();
     }
     const Transform<World, Vertebra> moved_truth(truth.rotation(), truth.translation() + moved);
     const double off_m = error_m(now.posterior.world_from_vertebra, moved_truth);
@@ -428,14 +430,14 @@ TEST(Posterior, HeightsAreJoinedAsDrawsWeighedByThemSay) {
   }
   const auto together = joined(first.strokes, surface, presses, kMoved_m).value();
   // By draws.
-  const Prior prior;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(std::pow(prior.press_common_sd_m, 2));
+  const PressModel press;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(std::pow(press.common_sd_m, 2));
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) {
       const double apart_m =
           (presses[static_cast<std::size_t>(i)].at - presses[static_cast<std::size_t>(k)].at)
               .norm();
-      covariance(i, k) += std::pow(prior.press_sd_m, 2) * std::exp(-apart_m / 0.003);
+      covariance(i, k) += std::pow(press.sd_m, 2) * std::exp(-apart_m / 0.003);
     }
     covariance(i, i) += 0.0001 * 0.0001;
   }
@@ -476,7 +478,7 @@ TEST(Posterior, HeightsAreJoinedAsDrawsWeighedByThemSay) {
     Eigen::Vector3d off;
     for (int i = 0; i < 3; ++i) {
       const Vec3 p = (there.inverse() * presses[static_cast<std::size_t>(i)].at).v;
-      off(i) = surface.near(p, surface.place_near(p)).distance_m - prior.press_gap_m;
+      off(i) = surface.near(p, surface.place_near(p)).distance_m - press.height_m;
     }
     const double weight = std::exp(-0.5 * off.dot(precision * off));
     const Vec3 at = there * target - middle;
@@ -503,6 +505,7 @@ TEST(Posterior, DepthImagesThatAreOffAlongTheirRaysStillTurnTheBone) {
   constexpr double kBias_m = 0.003;
   constexpr double kNoise_m = 0.001;
   constexpr int kRuns = 4;
+  const std::vector<Point<Vertebra>> places = reachable();
   double before_m2 = 0.0, after_m2 = 0.0, squares = 0.0, trusted_squares = 0.0;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
     Transform<World, Vertebra> truth;
@@ -514,11 +517,11 @@ TEST(Posterior, DepthImagesThatAreOffAlongTheirRaysStillTurnTheBone) {
       // From behind, and to a side.
       const Vec3 ray = truth.rotation() * Vec3{view == 0 ? 0.5 : -0.5, 0.8, 0.3}.normalized();
       const double bias_m = random.normal(0.0, kBias_m);
-      for (std::size_t i = static_cast<std::size_t>(view); i < reachable().size(); i += 4) {
+      for (std::size_t i = static_cast<std::size_t>(view); i < places.size(); i += 4) {
         const Vec3 noise{random.normal(0.0, kNoise_m), random.normal(0.0, kNoise_m),
                          random.normal(0.0, kNoise_m)};
-        depth.push_back({truth * reachable()[i] + bias_m * ray + noise, 0.0, kNoise_m, 0.0, kBias_m,
-                         view, ray});
+        depth.push_back(
+            {truth * places[i] + bias_m * ray + noise, 0.0, kNoise_m, 0.0, kBias_m, view, ray});
       }
     }
     const auto with = [&](double told_m) {

@@ -82,8 +82,9 @@ void put_bone(const nav::TriangleMesh& mesh, float value, SampleScan& scan) {
   const nav::SurfaceIndex surface(mesh);
   const nav::Bounds bounds = nav::bounds_of(mesh);
   const engine::VolumeGrid& grid = scan.ct.grid;
+  // No surface is within `clear_m` of `seen_m`, so that nearby voxels lie on the same side of it.
   Vec3 seen_m;
-  double clear_m = 0.0;  // about there
+  double clear_m = 0.0;
   bool inside = false;
   for_each_voxel(grid, block_about(grid, bounds.low, bounds.high), [&](std::size_t n, Vec3 p) {
     double depth_m = clear_m - (p - seen_m).norm();

@@ -47,20 +47,14 @@ Result<hl2ss::Server::OpenHeadset> sessions_of(const ServeArguments& arguments) 
   if (!source) {
     return source.error();
   }
-  // A room shows bones and registers none: no model is prepared.
-  engine::Operation operation = engine::plan_rods_alone(*source);
-  if (!arguments.rods_only) {
-    const auto labels = engine::levels_to_operate(*source, arguments.levels);
-    if (!labels) {
-      return labels.error();
-    }
-    operation.rods_alone = false;
-    for (const std::string& label : *labels) {
-      operation.levels.push_back({label, {}, {}, {}});
-    }
+  const auto operation = arguments.rods_only
+                             ? engine::plan_rods_alone(*source)
+                             : engine::plan_without_models(*source, arguments.levels);
+  if (!operation) {
+    return operation.error();
   }
   const engine::SetUp set_up = arguments.set_up.chosen();
-  auto room = engine::room_of(*source, operation, engine::built_in_tools());
+  auto room = engine::room_of(*source, *operation, engine::built_in_tools());
   room.exposure = engine::strokes_of(set_up.method);
   sim::SimOptions options;
   options.seed = arguments.seed;
