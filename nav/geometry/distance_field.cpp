@@ -8,11 +8,7 @@
 namespace orthonav::nav {
 namespace {
 
-/// Farther than this from the surface, the side on which a point lies is not needed.
-constexpr double kSigned_m = 0.008;
-
-float signed_distance_m(double distance_m, const SurfaceIndex& bone, Vec3 place_m) {
-  const bool inside = distance_m < kSigned_m && bone.contains(place_m);
+float signed_distance_m(double distance_m, bool inside) {
   return static_cast<float>(inside ? -distance_m : distance_m);
 }
 
@@ -50,15 +46,21 @@ DistanceField::DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near,
   const auto row = static_cast<std::size_t>(size_[0]);
   distance_m_.reserve(samples);
   Vec3 closest_m;
+  bool inside = false;
   for (std::size_t i = 0; i < samples; ++i) {
     const Vec3 place = place_m(i);
+    // Where the bone's surface is farther than the neighbour, both lie on the same side of it. Half
+    // a cell more, so that the neighbour itself is clear of it.
+    if (i % row == 0 || bone.nearest(place, 1.5 * cell_m)) {
+      inside = bone.contains(place);
+    }
     // The surface is no farther than its point that is closest to the neighbour.
     double within_m = i % row > 0 ? (closest_m - place).norm() * (1.0 + 1e-12) + 1e-15 : 1e9;
     if (const auto found = near.nearest(place, within_m)) {
       closest_m = found->point_m;
       within_m = found->distance_m;
     }
-    distance_m_.push_back(signed_distance_m(within_m, bone, place));
+    distance_m_.push_back(signed_distance_m(within_m, inside));
   }
 }
 
@@ -80,7 +82,8 @@ Result<DistanceField> DistanceField::restored(const TriangleMesh& mesh, const Su
     const Vec3 place = field.place_m(i);
     const auto found = near.nearest(place);
     const double right_m =
-        found ? static_cast<double>(signed_distance_m(found->distance_m, bone, place)) : 0.0;
+        found ? static_cast<double>(signed_distance_m(found->distance_m, bone.contains(place)))
+              : 0.0;
     if (!found || !(std::abs(static_cast<double>(samples_m[i]) - right_m) <= kSame_m)) {
       return Error{"distances are of another mesh (place " + std::to_string(i) + ")"};
     }

@@ -10,10 +10,9 @@
 
 namespace orthonav::nav {
 
-/// Distance to a surface by look-up: sampled on a grid, trilinear in between. Negative inside the
-/// bone down to 8 mm from the surface, positive elsewhere. Off by a few tenths of a cell where the
-/// surface bends within one: good enough for finding poses, not for the last step. Immutable,
-/// thread-safe, no allocation in queries.
+/// Distance to a surface by look-up: sampled on a grid, trilinear in between, negative inside the
+/// bone. Off by a few tenths of a cell where the surface bends within one: good enough for finding
+/// poses, not for the last step. Immutable, thread-safe, no allocation in queries.
 class DistanceField {
  public:
   /// Distance to the surface of `near`, with the sign from the closed surface `bone`. Covers

@@ -22,7 +22,7 @@ namespace orthonav::nav {
 /// Raise this with every change that prepares the same mesh differently: stored preparations
 /// (engine/case/model_cache.h) are then made again. A test checks it against the figures of a known
 /// bone.
-inline constexpr std::uint32_t kPreparationVersion = 1;
+inline constexpr std::uint32_t kPreparationVersion = 2;
 
 /// The parts of a vertebra's preparation that are slow to compute, as plain numbers that can be
 /// stored.
