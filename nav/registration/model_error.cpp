@@ -24,8 +24,12 @@ std::vector<ModelErrorHypothesis> model_error_hypotheses() {
   return all;
 }
 
+double smooth_correlation(double lengths) {
+  return (1.0 + kSmoothScale * lengths) * std::exp(-kSmoothScale * lengths);
+}
+
 double shared_error_m2(const ModelError& error, Vec3 a, Vec3 b) {
-  return error.sd_m * error.sd_m * std::exp(-(a - b).norm() / error.length_m);
+  return error.sd_m * error.sd_m * smooth_correlation((a - b).norm() / error.length_m);
 }
 
 }  // namespace orthonav::nav

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "base/vec.h"
@@ -9,7 +10,7 @@ namespace orthonav::nav {
 /// The error of a model relative to its bone, from segmentation.
 struct ModelError {
   double sd_m = 0.0;
-  double length_m = 0.007;  ///< correlation length: covariance `sd² exp(-distance / length)`
+  double length_m = 0.007;  ///< over which its correlation, Matern's of order 3/2, falls to 1/e
 };
 
 /// The usual SD of a segmentation of a vertebra in CT.
@@ -26,7 +27,21 @@ struct ModelErrorHypothesis {
 /// between 0.1 mm, which is practically exact, and 1 mm.
 [[nodiscard]] std::vector<ModelErrorHypothesis> model_error_hypotheses();
 
+/// Matern's correlation of order 3/2, (1 + x) exp(-x), falls to 1/e at this x.
+inline constexpr double kSmoothScale = 2.146193;
+/// At `lengths` times that distance.
+[[nodiscard]] double smooth_correlation(double lengths);
 /// Covariance of a model's error at two places.
 [[nodiscard]] double shared_error_m2(const ModelError& error, Vec3 a, Vec3 b);
+
+/// How the model's error is in a pose that was fitted to points on the bone: places that are
+/// touched later share it.
+struct ModelShare {
+  std::vector<Vec3> places_m;  ///< in the model's frame; none: not known
+  /// Of each: the step (translation m, rotation vector rad, about the centre of the pose's
+  /// uncertainty) from the fitted to the true pose, per metre that the bone lies above its model.
+  std::vector<std::array<double, 6>> step;
+  std::array<double, 36> rest{};  ///< of the pose's covariance, by rows: what is not the model's
+};
 
 }  // namespace orthonav::nav

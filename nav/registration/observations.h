@@ -19,22 +19,6 @@ struct StrokePoint {
   Vec3 shaft{};         ///< unit, from the tip back along the pointer; zero if not known
 };
 
-/// A height above the bone that was measured at one place, after the strokes: a press of the tip on
-/// bare bone, or a place of a depth image.
-struct Height {
-  Point<World> at;
-  double mean_m = 0.0;  ///< to be expected
-  double sd_m = 0.0;    ///< of this one alone
-  /// Of what it has in common with others less than 3 mm away: the same tissue is under them.
-  double tissue_sd_m = 0.0;
-  /// Of what it has in common with all others of the same act: all presses, or one image.
-  double act_sd_m = 0.0;
-  int act = 0;
-  /// Unit, World: what an act has in common shifts its places along it, such as a sensor's offset
-  /// along its ray. Zero: it adds to the heights.
-  Vec3 along{};
-};
-
 /// The strokes over one bone, in World.
 struct Observations {
   std::vector<StrokePoint> strokes;

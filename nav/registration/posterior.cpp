@@ -179,28 +179,16 @@ Hand hand_at(const Observations& observations, const Prior& prior,
   return out;
 }
 
-// What a height consists of, as columns: pose (6), valley, the bone's shift since (3; of strokes,
-// where heights were measured after them), standoff, size, curvature; the height.
+// What a height consists of, as columns: pose (6), valley, standoff, size, curvature; the height.
 constexpr Eigen::Index kValley = 6;
-constexpr Eigen::Index kShift = 7;
-constexpr Eigen::Index kMoved = 10;  ///< how many are integrated whatever else is
-constexpr Eigen::Index kStandoff = 10;
-constexpr Eigen::Index kCurvature = 12;
-constexpr Eigen::Index kHeight = 13;
-constexpr Eigen::Index kColumns = 14;
+constexpr Eigen::Index kMoved = 7;  ///< how many are integrated whatever else is
+constexpr Eigen::Index kStandoff = 7;
+constexpr Eigen::Index kSize = 8;
+constexpr Eigen::Index kCurvature = 9;
+constexpr Eigen::Index kHeight = 10;
+constexpr Eigen::Index kColumns = 11;
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, kColumns>;
 using Products = Eigen::Matrix<double, kColumns, kColumns>;
-
-/// Of a place; without what is of strokes alone.
-Eigen::Matrix<double, 1, kColumns> columns_of(const Touches::Touch& touch, Vec3 centre_m) {
-  const Vec3 turned = touch.lever_m.cross(touch.out) / kLever_m;
-  Eigen::Matrix<double, 1, kColumns> one;
-  one << -touch.out.x, -touch.out.y, -touch.out.z, -turned.x, -turned.y, -turned.z, 0.0, 0.0, 0.0,
-      0.0, 0.0,
-      // Of the place on the surface: the tip's own lever holds the height that it is to explain.
-      (touch.nearest_m - centre_m).dot(touch.out), 0.0, touch.height_m;
-  return one;
-}
 
 // ---------------------------------------------------------------------------------------------
 // The grid, and the prior of a point of it.
@@ -286,12 +274,9 @@ double log_prior_of(const Prior& prior, const Node& node, double s_m, double noi
 // ---------------------------------------------------------------------------------------------
 // Covariances: of the units' heights, and within a block, in units of the noise's variance.
 
-/// Matern's correlation of order 3/2, (1 + x) exp(-x), falls to 1/e at this x.
-constexpr double kSmoothScale = 2.146193;
-
 double correlation_at(const Correlated& of, double apart) {
   const double x = apart / of.over;
-  return of.smooth ? (1.0 + kSmoothScale * x) * std::exp(-kSmoothScale * x) : std::exp(-x);
+  return of.smooth ? smooth_correlation(x) : std::exp(-x);
 }
 
 /// Mean correlation of a field over the bone between two units, by their halves.
@@ -495,10 +480,15 @@ struct Averaged::Units {
     for (Eigen::Index k = 0; k < m; ++k) {
       for (const std::uint32_t i : units[static_cast<std::size_t>(k)].points) {
         const Touches::Touch& touch = t.all[i];
-        auto one = posterior::columns_of(touch, t.centre_m);
+        const Vec3 turned = touch.lever_m.cross(touch.out) / kLever_m;
+        Eigen::Matrix<double, 1, kColumns> one;
+        one.head<6>() << -touch.out.x, -touch.out.y, -touch.out.z, -turned.x, -turned.y, -turned.z;
         one(kValley) = touch.valley_m;
         one(kStandoff) = 1.0;
+        // Of the place on the surface: the tip's own lever holds the height that it is to explain.
+        one(kSize) = (touch.nearest_m - t.centre_m).dot(touch.out);
         one(kCurvature) = touch.curvature_1_m;
+        one(kHeight) = touch.height_m;
         out.row(k) += hand.belongs[i] / points[static_cast<std::size_t>(k)] * one;
       }
     }
@@ -634,14 +624,12 @@ Vector6 step_scale() {
   return scale;
 }
 
-/// `shift`: SD of the bone's shift since the strokes, of the noise's SD.
-std::optional<Answer> concluded(const Prior& prior, const Basis& basis, double shift, Asked asked) {
+std::optional<Answer> concluded(const Prior& prior, const Basis& basis, Asked asked) {
   Products all = basis.rows;
   // Tissue that is thick in valleys, by an unknown amount of the size of its unevenness.
   constexpr double kNone = 1e-6;
   const double valley = std::max(kNone, basis.of.tissue);
   all(kValley, kValley) += 1.0 / (valley * valley);
-  all.diagonal().segment<3>(kShift).array() += 1.0 / (shift * shift);
   using Moved = Eigen::Matrix<double, kMoved, kMoved>;
   const Eigen::LLT<Moved> llt(all.topLeftCorner<kMoved, kMoved>());
   if (llt.info() != Eigen::Success || !all.allFinite()) {
@@ -676,21 +664,21 @@ std::optional<Answer> concluded(const Prior& prior, const Basis& basis, double s
     return log_density_of_standoff(prior, s_m) + log_prior_of(prior, basis.node, s_m, noise_m);
   };
   const double fixed = basis.log_outliers - 0.5 * basis.log_determinant;
-  const double log_nuisance = std::log(valley) + 3.0 * std::log(shift);
+  const double log_nuisance = std::log(valley);
   const double log_pose = llt.matrixLLT().diagonal().array().log().sum() + log_nuisance;
   const OverStandoff over =
       over_standoff({left(2, 2) + inside_m2, left(0, 2), left(0, 0)}, freedom, log_prior);
   Answer out;
   out.log_weight = over.log_integral + fixed - log_pose;
   if (asked == Asked::kAll) {
-    // The pose held, valleys and shift integrated.
-    const Eigen::LLT<Eigen::Matrix4d> held(all.block<4, 4>(kValley, kValley));
-    const Eigen::Matrix4d across = all.block<4, 4>(kValley, kStandoff);
+    // The pose held, valleys integrated.
+    const double held = all(kValley, kValley);
+    const Eigen::RowVector4d across = all.block<1, 4>(kValley, kStandoff);
     const Eigen::Matrix3d raw =
-        kept.transpose() *
-        (all.bottomRightCorner<4, 4>() - across.transpose() * held.solve(across)) * kept;
+        kept.transpose() * (all.bottomRightCorner<4, 4>() - across.transpose() * across / held) *
+        kept;
     out.log_here =
-        fixed - held.matrixLLT().diagonal().array().log().sum() - log_nuisance +
+        fixed - 0.5 * std::log(held) - log_nuisance +
         over_standoff({raw(2, 2) + inside_m2, raw(0, 2), raw(0, 0)}, dimensions, log_prior)
             .log_integral;
     // The size has a normal prior: integrated, it takes its part of the squares.
@@ -749,7 +737,7 @@ std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, con
     return std::nullopt;
   }
   const Columns whitened = factor->root.triangularView<Eigen::Lower>().solve(columns);
-  return concluded(units.prior, basis_of(units, *factor, whitened, node), 1.0, asked);
+  return concluded(units.prior, basis_of(units, *factor, whitened, node), asked);
 }
 
 /// Points of the grid with their answers.
@@ -1037,42 +1025,36 @@ std::vector<EstimatedHeight> heights_of(Averaged::Units& units, const Touches& t
   return out;
 }
 
-}  // namespace
-
-struct Strokes {
-  Prior prior;
-  Touches at;  ///< the pose that the columns are of; no points
-  Hand hand;
-  double tip_radius_m = 0.0;
-  std::vector<Unit> units;
-  struct AtNode {
-    Basis basis;
-    double noise_m = 0.0;
-    Eigen::MatrixXd root;
-    Columns whitened;
-  };
-  std::vector<AtNode> nodes;
-};
-
-namespace {
-
-std::shared_ptr<const Strokes> kept_of(Averaged::Units& units, const Touches& t,
-                                       const Answers& answers) {
-  auto out = std::make_shared<Strokes>();
-  out->prior = units.prior;
-  out->at = {t.from_world, t.centre_m, {}};
-  out->hand = units.hand;
-  out->tip_radius_m = units.observations.tip_radius_m;
-  out->units = units.units;
+/// How the model's error is in the mean pose, by all points of the grid. `mean`: what `assembled`
+/// made of them.
+ModelShare model_share_of(Averaged::Units& units, const Touches& t, const Answers& answers,
+                          const Posterior& mean) {
+  const Correlated field{units.prior.model_length_m, true};
+  const Eigen::MatrixXd correlation = units.of_field(field).selfadjointView<Eigen::Lower>();
   const Columns columns = units.columns_of(t);
+  using Gain = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+  Gain gain = Gain::Zero(6, columns.rows());
+  Matrix6 of_model = Matrix6::Zero();
   for (const auto& [node, a] : answers) {
-    const auto& factor = units.factor(node);
-    Columns whitened = factor->root.triangularView<Eigen::Lower>().solve(columns);
-    // A shift of the bone takes it away from the strokes, as a step of the points does.
-    whitened.middleCols<3>(kShift) = -whitened.leftCols<3>();
-    const Basis basis = basis_of(units, *factor, whitened, node);
-    out->nodes.push_back({basis, a.part.noise_m, factor->root, std::move(whitened)});
+    // The step is linear in the heights: its covariance with them, less what the standoff takes.
+    const auto root = units.factor(node)->root.triangularView<Eigen::Lower>();
+    const Eigen::MatrixXd solved = root.adjoint().solve(root.solve(columns.leftCols<kMoved + 1>()));
+    const double noise_m2 = a.part.noise_m * a.part.noise_m;
+    const Gain at =
+        step_scale().asDiagonal() * (a.spread_m2.topRows<6>() / noise_m2 * solved.transpose());
+    gain += a.part.weight * at;
+    const double model_m2 = noise_m2 * a.part.of.model * a.part.of.model;
+    of_model += a.part.weight * model_m2 * (at * correlation * at.transpose());
   }
+  ModelShare out;
+  for (Eigen::Index k = 0; k < gain.cols(); ++k) {
+    const Unit& unit = units.units[static_cast<std::size_t>(k)];
+    out.places_m.push_back(
+        (t.from_world * Point<World>{0.5 * (unit.quarter_m + unit.three_quarters_m)}).v);
+    // The points took the step that the error asked for: the true pose is back from there.
+    Eigen::Map<Vector6>(out.step.emplace_back().data()) = -gain.col(k);
+  }
+  Eigen::Map<Rows6>(out.rest.data()) = Eigen::Map<const Rows6>(mean.covariance.data()) - of_model;
   return out;
 }
 
@@ -1171,304 +1153,13 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   }
   sort_by_weight(answers);
   std::vector<EstimatedHeight> heights;
-  std::shared_ptr<const Strokes> strokes;
   if (full && told_here) {
     heights = heights_of(units, here, answers);
-    if (effort == Effort::kToJoin) {
-      strokes = kept_of(units, here, answers);
-    }
   }
   Posterior out = assembled(here, shared->hand(), answers);
   out.heights = std::move(heights);
-  out.strokes = std::move(strokes);
-  return out;
-}
-
-// ---------------------------------------------------------------------------------------------
-// Heights that are measured after the strokes: rows of the same Gaussian, whose covariance with the
-// strokes is the model's error. What the strokes explain of them is taken off (the Schur
-// complement), so that each costs little.
-
-namespace {
-
-Touches::Touch touch_at(const Height& height, const Strokes& strokes, const BoneSurface& bone,
-                        const Transform<Vertebra, World>& from_world, Vec3 centre_m) {
-  const Vec3 p = (from_world * height.at).v;
-  Touches::Touch out;
-  if (p.is_finite()) {
-    const auto place = bone.near(p, bone.place_near(p));
-    out.lever_m = p - centre_m;
-    out.out = place.out;
-    out.nearest_m = place.nearest_m;
-    out.height_m = place.distance_m - strokes.tip_radius_m - height.mean_m;
-  } else {
-    out.height_m = std::numeric_limits<double>::quiet_NaN();
-  }
-  return out;
-}
-
-Unit unit_of(const Height& height) { return {0, 0, {}, height.at.v, height.at.v, 0.0, 0.0}; }
-
-/// Covariance of what two heights have in common apart from the model's error. `out`: unit, World,
-/// away from the bone there.
-double in_common_m2(const Height& a, Vec3 out_a, const Height& b, Vec3 out_b) {
-  constexpr double kSameTissue_m = 0.003;
-  const auto share = [](const Height& h, Vec3 out) {
-    return h.act_sd_m * (h.along.squared_norm() > 0.0 ? h.along.dot(out) : 1.0);
-  };
-  return a.tissue_sd_m * b.tissue_sd_m * std::exp(-(a.at - b.at).norm() / kSameTissue_m) +
-         (a.act == b.act ? share(a, out_a) * share(b, out_b) : 0.0);
-}
-
-}  // namespace
-
-/// Heights at a point of the grid, relative to its noise.
-struct AtHeights {
-  Eigen::MatrixXd by_strokes;  ///< whitened covariance of the strokes' rows with them
-  Eigen::MatrixXd root;        ///< Cholesky's, of their covariance under the strokes
-  Columns whitened;            ///< less what the strokes explain
-};
-
-struct Joined::Likeliest {
-  std::shared_ptr<const Strokes> strokes;
-  std::vector<Height> heights;
-  std::vector<Vec3> out;  ///< of each, unit, World
-  Touches at;
-  struct Node {
-    std::size_t number = 0;
-    AtHeights rows;
-    Answer answer;
-  };
-  std::vector<Node> nodes;
-};
-
-namespace {
-
-/// Mean correlation of the model's error between the strokes' units, or other heights, and heights.
-Eigen::MatrixXd model_error(const Strokes& strokes, std::span<const Unit> of,
-                            std::span<const Height> heights) {
-  Eigen::MatrixXd out(of.size(), heights.size());
-  for (std::size_t k = 0; k < heights.size(); ++k) {
-    const Unit height = unit_of(heights[k]);
-    for (std::size_t i = 0; i < of.size(); ++i) {
-      out(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-          between(of[i], height, {strokes.prior.model_length_m, true});
-    }
-  }
-  return out;
-}
-
-}  // namespace
-
-std::optional<Joined> joined(const std::shared_ptr<const Strokes>& strokes, const BoneSurface& bone,
-                             std::span<const Height> heights, double moved_sd_m) {
-  constexpr int kMostRounds = 6;
-  constexpr double kStands_m = 1e-6;
-  const auto n = static_cast<Eigen::Index>(heights.size());
-  const auto index = [](Eigen::Index i) { return static_cast<std::size_t>(i); };
-  auto likeliest = std::make_shared<Joined::Likeliest>();
-  likeliest->strokes = strokes;
-  likeliest->heights.assign(heights.begin(), heights.end());
-  const auto to_world = strokes->at.from_world.inverse();
-  std::vector<Unit> units;
-  for (const Height& height : heights) {
-    units.push_back(unit_of(height));
-    likeliest->out.push_back(
-        to_world.rotation() *
-        touch_at(height, *strokes, bone, strokes->at.from_world, strokes->at.centre_m).out);
-  }
-  // Covariances depend on places in World alone, and on directions that a step hardly turns.
-  const Eigen::MatrixXd with_strokes = model_error(*strokes, strokes->units, heights);
-  const Eigen::MatrixXd with_heights = model_error(*strokes, units, heights);
-  Eigen::MatrixXd own_m2(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index k = 0; k < n; ++k) {
-      own_m2(i, k) = in_common_m2(heights[index(i)], likeliest->out[index(i)], heights[index(k)],
-                                  likeliest->out[index(k)]);
-    }
-    own_m2(i, i) += heights[index(i)].sd_m * heights[index(i)].sd_m;
-  }
-  std::vector<AtHeights> at_nodes;
-  for (const Strokes::AtNode& node : strokes->nodes) {
-    const double model_2 = node.basis.of.model * node.basis.of.model;
-    AtHeights& at = at_nodes.emplace_back();
-    at.by_strokes = node.root.triangularView<Eigen::Lower>().solve(model_2 * with_strokes);
-    Eigen::MatrixXd left = model_2 * with_heights + own_m2 / (node.noise_m * node.noise_m);
-    left -= at.by_strokes.transpose() * at.by_strokes;
-    const Eigen::LLT<Eigen::MatrixXd> llt(left);
-    if (llt.info() != Eigen::Success) {
-      return std::nullopt;
-    }
-    at.root = llt.matrixL();
-  }
-  Vector6 step = Vector6::Zero();  // of the points, m and rad
-  // An answer of every node; empty if one has none.
-  const auto answers_here = [&](Asked asked) {
-    const auto from_world = stepped(strokes->at, step);
-    const Vec3 centre_m = strokes->at.centre_m + Vec3{step(0), step(1), step(2)};
-    const Vector6 moved = step_scale().cwiseInverse().asDiagonal() * step;
-    Columns columns(n, kColumns);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto touch = touch_at(heights[index(i)], *strokes, bone, from_world, centre_m);
-      columns.row(i) = columns_of(touch, centre_m);
-      // As seen from the pose that the strokes' columns are of.
-      columns(i, kHeight) += columns.row(i).head<6>() * moved;
-    }
-    Answers out;
-    for (std::size_t k = 0; k < at_nodes.size(); ++k) {
-      const Strokes::AtNode& node = strokes->nodes[k];
-      AtHeights& at = at_nodes[k];
-      at.whitened = at.root.triangularView<Eigen::Lower>().solve(
-          columns - at.by_strokes.transpose() * node.whitened);
-      Basis basis = node.basis;
-      basis.rows += at.whitened.transpose() * at.whitened;
-      basis.dimensions += static_cast<double>(n);
-      basis.log_determinant += 2.0 * at.root.diagonal().array().log().sum();
-      const auto found = concluded(strokes->prior, basis, moved_sd_m / node.noise_m, asked);
-      if (!found) {
-        return Answers{};
-      }
-      out.emplace_back(basis.node, *found);
-    }
-    return out;
-  };
-  for (int round = 0; round < kMostRounds; ++round) {
-    const Answers answers = answers_here(Asked::kWeight);
-    if (answers.empty()) {
-      return std::nullopt;
-    }
-    const Vector6 off = mean_step(answers) - step;
-    step += off;
-    if (off.head<3>().norm() < kStands_m && kLever_m * off.tail<3>().norm() < kStands_m) {
-      break;
-    }
-  }
-  Answers answers = answers_here(Asked::kAll);
-  if (answers.empty()) {
-    return std::nullopt;
-  }
-  Joined out;
-  // Each against all others, weighed by what those say.
-  for (Eigen::Index i = 0; i < n; ++i) {
-    struct Off {
-      double m = 0.0, m2 = 0.0, log_weight = 0.0;
-    };
-    std::vector<Off> offs;
-    double most = kNever;
-    for (std::size_t k = 0; k < answers.size(); ++k) {
-      const Answer& a = answers[k].second;
-      const AtHeights& at = at_nodes[k];
-      const double noise_m2 = a.part.noise_m * a.part.noise_m;
-      Eigen::Matrix<double, Eigen::Dynamic, kMoved + 1> moves(n, kMoved + 1);
-      moves << at.whitened.leftCols<kMoved>(), at.whitened.col(kStandoff);
-      Eigen::Matrix<double, kMoved + 1, 1> moved;
-      moved << a.moved, a.part.standoff_m;
-      const Eigen::VectorXd left =
-          at.whitened.col(kHeight) - a.lifts_m2 * at.whitened.col(kCurvature) - moves * moved;
-      const Eigen::VectorXd to =
-          at.root.triangularView<Eigen::Lower>().solve(Eigen::VectorXd::Unit(n, i));
-      const double precision =
-          to.squaredNorm() -
-          (moves.transpose() * to).dot(a.spread_m2 * (moves.transpose() * to)) / noise_m2;
-      Off off{to.dot(left) / precision, noise_m2 / precision, 0.0};
-      off.log_weight = a.log_weight + 0.5 * off.m * off.m / off.m2 + 0.5 * std::log(off.m2);
-      most = std::max(most, off.log_weight);
-      offs.push_back(off);
-    }
-    double sum = 0.0, mean_m = 0.0, square_m2 = 0.0;
-    for (const Off& off : offs) {
-      const double p = std::exp(off.log_weight - most);
-      sum += p;
-      mean_m += p * off.m;
-      square_m2 += p * (off.m2 + off.m * off.m);
-    }
-    out.off_m.push_back(mean_m / sum);
-    out.off_sd_m.push_back(std::sqrt(square_m2 / sum - std::pow(mean_m / sum, 2)));
-  }
-  likeliest->at = {
-      stepped(strokes->at, step), strokes->at.centre_m + Vec3{step(0), step(1), step(2)}, {}};
-  std::vector<std::size_t> order(answers.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return answers[a].second.log_weight > answers[b].second.log_weight;
-  });
-  constexpr std::size_t kFew = 4;
-  for (const std::size_t k : std::span(order).first(std::min(kFew, order.size()))) {
-    likeliest->nodes.push_back({k, std::move(at_nodes[k]), answers[k].second});
-  }
-  out.likeliest = likeliest;
-  sort_by_weight(answers);
-  out.posterior = assembled(strokes->at, strokes->hand, answers);
-  double model_m2 = 0.0;
-  for (const Part& part : out.posterior.parts) {
-    model_m2 += part.weight * std::pow(part.noise_m * part.of.model, 2);
-  }
-  out.model_sd_m = std::sqrt(model_m2);
-  return out.posterior.world_from_vertebra.translation().is_finite() ? std::optional(out)
-                                                                     : std::nullopt;
-}
-
-Joined::Foreseen Joined::foreseen(const BoneSurface& bone, std::span<const Height> next) const {
-  const Strokes& strokes = *likeliest->strokes;
-  std::vector<Unit> units;
-  for (const Height& height : likeliest->heights) {
-    units.push_back(unit_of(height));
-  }
-  const Eigen::MatrixXd model_with_strokes = model_error(strokes, strokes.units, next);
-  const Eigen::MatrixXd model_with_heights = model_error(strokes, units, next);
-  Eigen::MatrixXd common_m2(units.size(), next.size());
-  Eigen::VectorXd own_m2(next.size());
-  Columns at(next.size(), kColumns);
-  const auto to_world = likeliest->at.from_world.inverse();
-  for (std::size_t k = 0; k < next.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    const auto touch =
-        touch_at(next[k], strokes, bone, likeliest->at.from_world, likeliest->at.centre_m);
-    const Vec3 out = to_world.rotation() * touch.out;
-    at.row(row) = columns_of(touch, likeliest->at.centre_m);
-    own_m2(row) = in_common_m2(next[k], out, next[k], out) + next[k].sd_m * next[k].sd_m;
-    for (std::size_t i = 0; i < units.size(); ++i) {
-      common_m2(static_cast<Eigen::Index>(i), row) =
-          in_common_m2(likeliest->heights[i], likeliest->out[i], next[k], out);
-    }
-  }
-  Matrix6 now = Matrix6::Zero();
-  std::vector<Matrix6> then(next.size(), Matrix6::Zero());
-  double sum = 0.0;
-  for (const Likeliest::Node& of : likeliest->nodes) {
-    const double p = std::exp(of.answer.log_weight - likeliest->nodes.front().answer.log_weight);
-    sum += p;
-    const Strokes::AtNode& node = strokes.nodes[of.number];
-    const double noise_m2 = node.noise_m * node.noise_m;
-    const double model_2 = node.basis.of.model * node.basis.of.model;
-    const Eigen::MatrixXd with_strokes =
-        node.root.triangularView<Eigen::Lower>().solve(model_2 * model_with_strokes);
-    const Eigen::MatrixXd with_heights = of.rows.root.triangularView<Eigen::Lower>().solve(
-        model_2 * model_with_heights + common_m2 / noise_m2 -
-        of.rows.by_strokes.transpose() * with_strokes);
-    const Columns left =
-        at - with_strokes.transpose() * node.whitened - with_heights.transpose() * of.rows.whitened;
-    now += p * of.answer.spread_m2.topLeftCorner<6, 6>();
-    for (Eigen::Index k = 0; k < left.rows(); ++k) {
-      Eigen::Matrix<double, kMoved + 1, 1> moves;
-      moves << left.row(k).head<kMoved>().transpose(), left(k, kStandoff);
-      const Eigen::Matrix<double, kMoved + 1, 1> with = of.answer.spread_m2 * moves;
-      const double alone_m2 = own_m2(k) + noise_m2 * (model_2 - with_strokes.col(k).squaredNorm() -
-                                                      with_heights.col(k).squaredNorm());
-      then[static_cast<std::size_t>(k)] +=
-          p * (of.answer.spread_m2.topLeftCorner<6, 6>() -
-               with.head<6>() * with.head<6>().transpose() / (alone_m2 + moves.dot(with)));
-    }
-  }
-  const auto scaled = [&](const Matrix6& covariance) {
-    std::array<double, 36> out{};
-    Eigen::Map<Rows6>(out.data()) =
-        step_scale().asDiagonal() * (covariance / sum) * step_scale().asDiagonal();
-    return out;
-  };
-  Foreseen out{scaled(now), {}};
-  for (const Matrix6& covariance : then) {
-    out.then.push_back(scaled(covariance));
+  if (full && told_here) {
+    out.model_share = model_share_of(units, here, answers, out);
   }
   return out;
 }

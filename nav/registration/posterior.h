@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "nav/registration/bone_surface.h"
+#include "nav/registration/model_error.h"
 #include "nav/registration/observations.h"
 #include "nav/registration/prior.h"
 
@@ -27,14 +28,11 @@ namespace orthonav::nav::posterior {
 // (Ornstein-Uhlenbeck). Or the point has nothing to do with the bone, and d is anything within a
 // range.
 //
-// Of a height that is measured later, a press or a place of a depth image, d is what is to be
-// expected there in place of s, and f, the same field as of the strokes. The bone may have moved in
-// World meanwhile; the pose is then that under the heights. What shifts all alike adds to its
-// covariance.
+// What shifts all alike adds to the pose's covariance.
 //
 // Points are averaged over some 160 units of their strokes, whose heights are the rows. How points
 // deviate from the mean of the block of eight that they are in tells of the noise from point to
-// point. The pose (with a flat prior), c, the motion since the strokes, the scale of all variances
+// point. The pose (with a flat prior), c, the scale of all variances
 // and the size of the model are integrated in closed form, s by quadrature; all else are
 // hyperparameters, whose joint grid is summed over. (Rasmussen & Williams 2006, sections 2.7 and
 // 5.4.)
@@ -104,9 +102,6 @@ class Averaged {
   std::unique_ptr<Units> all_;
 };
 
-/// The strokes at every point of the grid that has weight, for heights to be joined with them.
-struct Strokes;
-
 /// The posterior of the pose under one hypothesis, as a mixture of Gaussians.
 struct Posterior {
   Transform<World, Vertebra> world_from_vertebra;  ///< at its mean
@@ -127,7 +122,7 @@ struct Posterior {
   /// How high the tip was along the strokes, without noise; where it was asked for in full and
   /// nothing was shared.
   std::vector<EstimatedHeight> heights;
-  std::shared_ptr<const Strokes> strokes;  ///< by `kToJoin`, where nothing was shared
+  ModelShare model_share;  ///< about `centre_m`; likewise
   Hand hand;
 };
 
@@ -152,9 +147,8 @@ struct OverStandoff {
     const Squares& squares, double freedom,
     const std::function<double(double s_m, double noise_m)>& log_prior);
 
-/// How closely to look: `kRough` takes little time and tells which hypotheses are far worse;
-/// `kToJoin` also keeps the strokes.
-enum class Effort : std::uint8_t { kRough, kFull, kToJoin };
+/// How closely to look: `kRough` takes little time and tells which hypotheses are far worse.
+enum class Effort : std::uint8_t { kRough, kFull };
 
 /// The posterior near `start`. `shared`: under the hand of the best explanation, for all others to
 /// be compared with it; null: the hand is told by the points at this pose, and is there afterwards.
@@ -164,32 +158,5 @@ enum class Effort : std::uint8_t { kRough, kFull, kToJoin };
     const Observations& observations, const BoneSurface& bone, const Prior& prior,
     const Transform<World, Vertebra>& start, Effort effort, std::unique_ptr<Averaged>& shared,
     double least = -std::numeric_limits<double>::infinity());
-
-/// The posterior of strokes and of heights that were measured after them.
-struct Joined {
-  Posterior posterior;
-  /// Of each height: how far it is from what strokes and all other heights predict, and the SD of
-  /// that, by what they tell of the model's error without it.
-  std::vector<double> off_m;
-  std::vector<double> off_sd_m;
-  double model_sd_m = 0.0;  ///< root mean square SD of the model's error
-
-  /// The covariance of the pose if each of these were measured next, by the likeliest points of the
-  /// grid; `now` of it without them.
-  struct Foreseen {
-    std::array<double, 36> now{};
-    std::vector<std::array<double, 36>> then;
-  };
-  [[nodiscard]] Foreseen foreseen(const BoneSurface& bone, std::span<const Height> next) const;
-
-  struct Likeliest;
-  std::shared_ptr<const Likeliest> likeliest;
-};
-
-/// `moved_sd_m`: SD along each axis of the bone's motion in World between strokes and heights.
-/// Without heights, the strokes' own posterior and that motion. Empty where a number is not finite.
-[[nodiscard]] std::optional<Joined> joined(const std::shared_ptr<const Strokes>& strokes,
-                                           const BoneSurface& bone, std::span<const Height> heights,
-                                           double moved_sd_m);
 
 }  // namespace orthonav::nav::posterior

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <Eigen/Dense>
 #include <limits>
+#include <utility>
 
 #include "nav/registration/press_covariance.h"
 
@@ -19,12 +20,21 @@ constexpr double kOnSurface_m = 1e-5;
 
 Pose6 pose_of(const std::array<double, 6>& step) { return Eigen::Map<const Pose6>(step.data()); }
 
+/// What a model's error of SD 1 and of one length does to heights and pose.
+struct ByField {
+  double length_m = 0.0;
+  Rows6 shared;             ///< of the heights with the pose
+  Eigen::MatrixXd heights;  ///< their covariance
+  Covariance6 pose;         ///< of the strokes
+};
+
 /// The heights of places at a pose (step 0), minus the mean height of a press.
 struct Heights {
   std::vector<PressedHeight> at;
   Eigen::VectorXd above_m;
   Rows6 shared;             ///< with the pose now
   Eigen::MatrixXd rest_m2;  ///< covariance without the model's error
+  std::vector<ByField> fields;
 };
 
 /// The problem that every round solves.
@@ -33,7 +43,8 @@ struct PressProblem {
   Transform<Vertebra, World> from_world;
   std::span<const PressedPlace> places;
   PressCovariance prior;
-  Covariance6 now;  ///< of the pose, with World's drift until the last press
+  Covariance6 now;  ///< of the pose, with World's drift until the last press, without the model's
+  std::vector<std::pair<double, FieldCovariance>> fields;  ///< by length
 };
 
 Heights heights_of(const PressProblem& problem, const Pose6& step) {
@@ -52,7 +63,7 @@ Heights heights_of(const PressProblem& problem, const Pose6& step) {
     const Vec3 up = apart     ? (sign / nearest->distance_m) * (p - nearest->point_m)
                     : nearest ? nearest->normal
                               : Vec3{};
-    out.at.push_back({p, up, place.time_s, place.sd_m});
+    out.at.push_back({p, up, here.rotation() * place.ray, place.view, place.time_s, place.sd_m});
     const double height_m =
         nearest ? sign * nearest->distance_m : std::numeric_limits<double>::quiet_NaN();
     out.above_m(i) = height_m - prior.press.height_m - prior.press.tip_radius_m -
@@ -64,6 +75,22 @@ Heights heights_of(const PressProblem& problem, const Pose6& step) {
     }
     out.rest_m2(i, i) += place.sd_m * place.sd_m;
   }
+  for (const auto& [length_m, field] : problem.fields) {
+    ByField& by =
+        out.fields.emplace_back(ByField{length_m, Rows6(n, 6), Eigen::MatrixXd(n, n),
+                                        Eigen::Map<const Covariance6>(field.pose().data())});
+    std::vector<std::array<double, 6>> places;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const PressedHeight& one = out.at[static_cast<std::size_t>(i)];
+      places.push_back(field.with_place(one.at_m));
+      by.shared.row(i) = pose_of(field.with_pose(one, places.back())).transpose();
+      for (Eigen::Index k = 0; k <= i; ++k) {
+        const auto other = static_cast<std::size_t>(k);
+        by.heights(i, k) = by.heights(k, i) =
+            field.between(one, places.back(), out.at[other], places[other]);
+      }
+    }
+  }
   return out;
 }
 
@@ -73,6 +100,7 @@ struct Answer {
   double log_weight = 0.0;  ///< prior and evidence, up to a constant
   Pose6 step = Pose6::Zero();
   Covariance6 covariance = Covariance6::Zero();
+  Rows6 shared;
   Eigen::MatrixXd inverse;
   Eigen::VectorXd off_m;
   Eigen::VectorXd off_variance_m2;
@@ -81,13 +109,11 @@ struct Answer {
 std::optional<Answer> answer(const Heights& heights, const ModelErrorHypothesis& by,
                              const Covariance6& now) {
   const Eigen::Index n = heights.above_m.size();
-  Eigen::MatrixXd spread = heights.rest_m2;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index k = 0; k < n; ++k) {
-      spread(i, k) += shared_error_m2(by.error, heights.at[static_cast<std::size_t>(i)].at_m,
-                                      heights.at[static_cast<std::size_t>(k)].at_m);
-    }
-  }
+  const auto field =
+      std::find_if(heights.fields.begin(), heights.fields.end(),
+                   [&](const ByField& of) { return of.length_m == by.error.length_m; });
+  const double model_m2 = by.error.sd_m * by.error.sd_m;
+  const Eigen::MatrixXd spread = heights.rest_m2 + model_m2 * field->heights;
   const Eigen::LLT<Eigen::MatrixXd> llt(spread);
   if (llt.info() != Eigen::Success || !heights.above_m.allFinite()) {
     return std::nullopt;
@@ -97,8 +123,9 @@ std::optional<Answer> answer(const Heights& heights, const ModelErrorHypothesis&
   out.inverse = llt.solve(Eigen::MatrixXd::Identity(n, n));
   const Eigen::VectorXd weighed = out.inverse * heights.above_m;
   // The step that brings the heights to the mean height of a press.
-  out.step = -heights.shared.transpose() * weighed;
-  out.covariance = now - heights.shared.transpose() * out.inverse * heights.shared;
+  out.shared = heights.shared + model_m2 * field->shared;
+  out.step = -out.shared.transpose() * weighed;
+  out.covariance = now + model_m2 * field->pose - out.shared.transpose() * out.inverse * out.shared;
   out.covariance = 0.5 * (out.covariance + out.covariance.transpose()).eval();
   const Eigen::MatrixXd lower = llt.matrixL();
   out.log_weight = by.log_probability - 0.5 * heights.above_m.dot(weighed) -
@@ -186,6 +213,11 @@ std::optional<Round> round_at(const PressProblem& problem, const Pose6& step,
                           : std::nullopt;
 }
 
+std::vector<ModelErrorHypothesis> hypotheses_of(const PressModel& press) {
+  return press.model ? std::vector<ModelErrorHypothesis>{{*press.model, 0.0}}
+                     : model_error_hypotheses();
+}
+
 /// Repeats rounds until the pose hardly moves; returns the last one.
 std::optional<Round> last_round(const PressProblem& problem) {
   constexpr int kRounds = 6;
@@ -208,7 +240,7 @@ std::optional<Round> last_round(const PressProblem& problem) {
     moved_m = (round->mean - at).head<3>().norm() + kLever_m * (round->mean - at).tail<3>().norm();
     at = round->mean;
   }
-  const auto all = known ? usual : model_error_hypotheses();
+  const auto all = hypotheses_of(problem.prior.press);
   for (int k = 0; k < kRoundsByAll && round; ++k) {
     round = round_at(problem, round->mean, all);
   }
@@ -242,7 +274,7 @@ void put(Round round, PressFit& out) {
   out.shared.resize(out.heights.size());
   for (std::size_t i = 0; i < out.shared.size(); ++i) {
     Eigen::Map<Pose6>(out.shared[i].data()) =
-        round.heights.shared.row(static_cast<Eigen::Index>(i)).transpose();
+        likeliest.shared.row(static_cast<Eigen::Index>(i)).transpose();
   }
   leave_one_out(answers, out);
 }
@@ -259,14 +291,27 @@ std::optional<PressFit> fit_presses(const VertebraModel& model, const Registrati
   for (const PressedPlace& place : places) {
     out.now_s = std::max(out.now_s, place.time_s);
   }
-  const PoseUncertainty own = without_common(*strokes.uncertainty, strokes.common);
-  out.before = own.covariance();
+  // Where the model's error is told, it is not weighed against that of the strokes.
+  if (!press.model && !strokes.model_share.places_m.empty()) {
+    out.strokes = strokes.model_share;
+    out.before = out.strokes.rest;
+  } else {
+    out.before = without_common(*strokes.uncertainty, strokes.common).covariance();
+  }
   Eigen::Map<Covariance6>(out.before.data()).topLeftCorner<3, 3>().diagonal().array() +=
       press.moved_sd_m * press.moved_sd_m;
   const PressCovariance prior{out.before, out.centre_m, press};
   const auto now = prior.walked(out.now_s);
-  auto round = last_round({model, strokes.world_from_vertebra.inverse(), places, prior,
-                           Eigen::Map<const Covariance6>(now.data())});
+  PressProblem problem{model, strokes.world_from_vertebra.inverse(),     places,
+                       prior, Eigen::Map<const Covariance6>(now.data()), {}};
+  for (const ModelErrorHypothesis& by : hypotheses_of(press)) {
+    const double length_m = by.error.length_m;
+    if (std::none_of(problem.fields.begin(), problem.fields.end(),
+                     [&](const auto& of) { return of.first == length_m; })) {
+      problem.fields.emplace_back(length_m, FieldCovariance(out.strokes, length_m, out.centre_m));
+    }
+  }
+  auto round = last_round(problem);
   if (!round) {
     return std::nullopt;
   }

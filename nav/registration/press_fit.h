@@ -12,15 +12,19 @@ namespace orthonav::nav {
 /// A pressed place, as far as its height depends on it, in the model's frame.
 struct PressedHeight {
   Vec3 at_m;
-  Vec3 up;  ///< unit, out of the bone
+  Vec3 up;   ///< unit, out of the bone
+  Vec3 ray;  ///< unit, from a camera; zero: pressed
+  int view = 0;
   double time_s = 0.0;
   double sd_m = 0.0;  ///< of this place alone, from tracking and tremor
 };
 
 /// What the heights of pressed places say about the pose of the strokes: a Gaussian posterior
 /// (Rasmussen & Williams 2006, section 2.7) whose noise consists of the error of each press, the
-/// model's own error as a field over the bone, and World's random walk. SD and length of the field
-/// are marginalised on a grid, weighted by a prior and by the likelihood of the heights.
+/// model's own error as a field over the bone, and World's random walk. The field is the same as
+/// under the strokes: where their pose shares it (`Registration::model_share`), a press beside a
+/// stroke tells nothing new of it. SD and length of the field are marginalised on a grid, weighted
+/// by a prior and by the likelihood of the heights.
 struct PressFit {
   Vec3 centre_m;                        ///< of the step, in the model's frame
   std::array<double, 6> step{};         ///< translation m, rotation vector rad; from the heights
@@ -35,16 +39,17 @@ struct PressFit {
   /// The pose of the bone as it lies now, given the pose from its strokes.
   [[nodiscard]] Transform<World, Vertebra> moved(
       const Transform<World, Vertebra>& world_from_vertebra) const;
-  /// The covariance if this place were pressed next.
-  [[nodiscard]] std::array<double, 36> with(const PressedHeight& next,
-                                            const PressModel& press) const;
+  /// The covariance if each of these places were pressed next.
+  [[nodiscard]] std::vector<std::array<double, 36>> with(std::span<const PressedHeight> next,
+                                                         const PressModel& press) const;
 
   // With the likeliest field, for `with`.
   ModelError likeliest;
   std::vector<PressedHeight> heights;
   std::vector<double> inverse_1_m2;           ///< of the heights' covariance
   std::vector<std::array<double, 6>> shared;  ///< covariance of the pose now with each height
-  std::array<double, 36> before{};            ///< of the pose of the strokes
+  std::array<double, 36> before{};            ///< of the pose of the strokes, without the field
+  ModelShare strokes;                         ///< how the field is in it
   std::array<double, 36> likeliest_covariance{};
 };
 

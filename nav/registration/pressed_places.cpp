@@ -141,6 +141,8 @@ std::optional<NextPlace> place_to_press(const VertebraModel& model, const Regist
   const auto world_from_vertebra = fit.moved(strokes.world_from_vertebra);
   const auto from_world = world_from_vertebra.inverse();
   NextPlace best;
+  std::vector<Point<World>> places;
+  std::vector<PressedHeight> next;
   best.tre_m = worst_tre_m(fit.likeliest_covariance, fit.centre_m, targets);
   best.tre_then_m = std::numeric_limits<double>::infinity();
   const std::size_t step = std::max<std::size_t>(1, stroked.size() / kMaxTried);
@@ -154,11 +156,15 @@ std::optional<NextPlace> place_to_press(const VertebraModel& model, const Regist
                     [&](const PressedPlace& p) { return (p.place - place).norm() < apart_m; })) {
       continue;
     }
-    const PressedHeight next{nearest->point_m, nearest->normal, fit.now_s, kUsualSd_m};
-    const double then_m = worst_tre_m(fit.with(next, press), fit.centre_m, targets);
+    places.push_back(place);
+    next.push_back({nearest->point_m, nearest->normal, {}, 0, fit.now_s, kUsualSd_m});
+  }
+  const auto then = fit.with(next, press);
+  for (std::size_t i = 0; i < then.size(); ++i) {
+    const double then_m = worst_tre_m(then[i], fit.centre_m, targets);
     if (then_m < best.tre_then_m) {
       best.tre_then_m = then_m;
-      best.place = place;
+      best.place = places[i];
     }
   }
   return std::isfinite(best.tre_then_m) ? std::optional(best) : std::nullopt;

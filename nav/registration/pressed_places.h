@@ -11,11 +11,13 @@ namespace orthonav::nav {
 
 struct PressFit;
 
-/// A place where the pointer's tip was pressed to the bone.
+/// A place where the pointer's tip was pressed to the bone, or that a depth camera saw of it.
 struct PressedPlace {
   Point<World> place;
   double sd_m = 0.0;    ///< of the tip's position along each axis: tracking and tremor
   double time_s = 0.0;  ///< since the bone was registered by its strokes
+  Vec3 ray{};           ///< unit, World, from the camera; zero: it was pressed
+  int view = 0;         ///< of the camera: what it is off, it is off in all of one view
 };
 
 /// Prior knowledge about such places.
@@ -26,6 +28,8 @@ struct PressModel {
   double common_sd_m = 0.0002;
   double sd_m = 0.0003;
   double tip_radius_m = 0.0;
+  /// Of places that a depth camera saw: SD of what it is off along its rays.
+  double ray_sd_m = 0.0;
   /// SD along each axis of World's motion relative to the bone between the strokes and the
   /// registration; and its random walk from then on, m/√s.
   double moved_sd_m = 0.0003;

@@ -229,6 +229,7 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
   r.shaft_collision_fraction = d.shaft_collision_fraction;
   r.field_sd_m = answer.uneven_m;
   r.heights = answer.heights;
+  r.model_share = answer.model_share;
   r.correlation_across_strokes = answer.across_strokes;
   r.size = answer.size;
   r.size_sd = answer.size_sd;

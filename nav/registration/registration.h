@@ -14,6 +14,7 @@
 #include "nav/geometry/mesh.h"
 #include "nav/geometry/principal_axes.h"
 #include "nav/registration/findings.h"
+#include "nav/registration/model_error.h"
 #include "nav/registration/pose_search.h"
 #include "nav/registration/tre.h"
 
@@ -162,6 +163,7 @@ struct Registration {
   /// SD over the bone of the tip's height: soft tissue, or a model that is not quite the bone.
   double field_sd_m = 0.0;
   std::vector<EstimatedHeight> heights;  ///< of the tip along the strokes, without noise
+  ModelShare model_share;                ///< in the pose, without common errors
   /// Correlation of the heights of neighbouring places on different strokes: about 0 over bare
   /// bone.
   double correlation_across_strokes = 0.0;
