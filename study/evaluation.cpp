@@ -2,10 +2,21 @@
 
 #include <algorithm>
 
+#include "base/check.h"
 #include "nav/evaluation/errors.h"
 #include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::engine {
+namespace {
+
+/// The bone in the room, from which its model may differ.
+nav::SurfaceIndex bone_of(const sim::RoomDescription& room, std::string_view label) {
+  const auto level = std::ranges::find(room.levels, label, &sim::RoomLevel::label);
+  ORTHONAV_CHECK(level != room.levels.end());
+  return nav::SurfaceIndex({level->vertices_m, level->triangles});
+}
+
+}  // namespace
 
 void GroundTruthRecorder::registered(Timestamp /*time*/, const LevelState& level,
                                      const RegistrationOutcome& outcome) {
@@ -98,8 +109,9 @@ LevelTruth GroundTruthRecorder::truth_of(const LevelState& level) const {
         screw.preoperative_angle_error_rad = before.angle_rad;
         screw.preoperative_entry_error_m = before.entry_m;
       }
-      screw.driven = nav::cylinder_along(axis, plan, surface);
-      screw.clearance = screw.driven ? nav::least_clearance(surface, *screw.driven) : std::nullopt;
+      const nav::SurfaceIndex bone = bone_of(headset_.room(), wire.level);
+      screw.driven = nav::cylinder_along(axis, plan, bone);
+      screw.clearance = screw.driven ? nav::least_clearance(bone, *screw.driven) : std::nullopt;
     }
   }
   return truth;

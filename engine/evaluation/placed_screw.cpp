@@ -141,7 +141,9 @@ ScrewInScan placed_screw(const Shaft& shaft, const nav::ScrewPlan& plan,
   out.bow_m = part * part * std::hypot(shaft.line.bow_across_m, shaft.line.bow_athwart_m);
   const nav::PoseUncertainty of_surface =
       with_surface(unsure, cylinder.direction, out.radius_as_planned);
-  if (const auto found = nav::screw_clearance(bone.surface, cylinder, &of_surface)) {
+  // Against the model: how far that is from the bone is not the scan's to say.
+  const nav::ModelError none{0.0};
+  if (const auto found = nav::screw_clearance(bone.surface, cylinder, &of_surface, none)) {
     out.clearance = found->least;
     out.spread = found->spread;
   }

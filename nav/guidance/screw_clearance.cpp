@@ -213,6 +213,9 @@ void LeastDepth::refine(const Patch& patch, double depth_m) {
 }
 
 constexpr std::size_t kMotions = 1024;
+/// Plane waves of the model's error. With so few, two places that share nothing are taken to share
+/// up to a fourth or so.
+constexpr Eigen::Index kWaves = 8;
 /// Largest distance between rows along the screw, and the places in each row: with 30° between
 /// them, at most 1 - cos(15°) = 3 % of a motion is missed.
 constexpr double kRow_m = 0.003;
@@ -221,50 +224,85 @@ constexpr int kPlacesInRow = 12;
 /// nearest place is skipped: it happens in one of 4000 cases.
 constexpr double kWorth_sd = 3.5;
 
-/// Standard normal motions, one in each row.
-using Motions = Eigen::Matrix<double, kMotions, 6>;
-/// How the depth of a place changes with each component of a motion.
-using DepthChange = Eigen::Matrix<double, 6, 1>;
+/// Standard normal numbers, those of one case in each row: the components of a motion, then the
+/// amplitudes of the model's error, a cosine and a sine for each wave.
+using Cases = Eigen::Matrix<float, kMotions, 6 + 2 * kWaves>;
+/// How the depth of a place changes with each of them.
+using DepthChange = Eigen::Matrix<float, 6 + 2 * kWaves, 1>;
 using Root = Eigen::Matrix<double, 6, 6>;
 
-Motions made_motions() {
+Cases made_cases() {
   // The positive root of x^7 = x + 1.
   constexpr double kRoot = 1.1127756842787055;
-  Motions motions;
+  Cases cases;
   double step = 1.0;
-  for (auto component : motions.colwise()) {
+  for (auto component : cases.leftCols<6>().colwise()) {
     step /= kRoot;
     for (Eigen::Index i = 0; i < component.size(); ++i) {
       const double at = 0.5 + step * (static_cast<double>(i) + 1.0);
-      component(i) = normal_quantile(at - std::floor(at));
+      component(i) = static_cast<float>(normal_quantile(at - std::floor(at)));
     }
   }
-  return motions;
+  Random random(2007);
+  for (auto amplitude : cases.rightCols<2 * kWaves>().colwise()) {
+    for (float& value : amplitude) {
+      value = static_cast<float>(random.normal());
+    }
+  }
+  return cases;
 }
 
-const Motions& standard_motions() {
-  static const Motions kMade = made_motions();
+const Cases& standard_cases() {
+  static const Cases kMade = made_cases();
+  return kMade;
+}
+
+/// Waves whose mean is `shared_error_m2` of unit SD and length.
+std::array<Vec3, kWaves> made_waves() {
+  std::array<Vec3, kWaves> waves;
+  Random random(1759);
+  for (Vec3& wave : waves) {
+    // The spectrum of Matern's correlation of order 3/2 in space is Student's t with three degrees
+    // of freedom.
+    const Vec3 normal{random.normal(), random.normal(), random.normal()};
+    const Vec3 spread{random.normal(), random.normal(), random.normal()};
+    wave = (kSmoothScale / spread.norm()) * normal;
+  }
+  return waves;
+}
+
+const std::array<Vec3, kWaves>& unit_waves() {
+  static const std::array<Vec3, kWaves> kMade = made_waves();
   return kMade;
 }
 
 /// The least depth in each of the motions, over the places so far.
 class LeastInEach {
  public:
-  LeastInEach(const PoseUncertainty& pose, double least_m, Vec3 place_m, const SurfaceDepth& there)
-      : centre_m_(pose.centre_m()), binding_m_(least_m) {
+  LeastInEach(const PoseUncertainty& pose, const ModelError& model, double least_m, Vec3 place_m,
+              const SurfaceDepth& there)
+      : centre_m_(pose.centre_m()), model_(model), binding_m_(least_m) {
     // A direction without variance, or below zero from rounding, keeps a millionth of its SD or a
     // nanometre: nothing, but it has a root.
     auto covariance = matrix_as<Root>(pose.covariance());
     covariance.diagonal() = (1.0 + 1e-12) * covariance.diagonal().array() + 1e-18;
     root_ = covariance.llt().matrixL();
-    binding_ = change(there.deeper, place_m);
-    least_m_ = binding_m_ + (standard_motions() * binding_).array();
+    by_motion(there, place_m, binding_);
+    by_model(there, place_m, binding_);
+    least_m_ = static_cast<float>(binding_m_) + (standard_cases() * binding_).array();
   }
 
   void add(Vec3 place_m, const SurfaceDepth& there) {
-    const DepthChange by = change(there.deeper, place_m);
-    if (there.depth_m - binding_m_ < kWorth_sd * (by - binding_).norm()) {
-      least_m_ = least_m_.min(there.depth_m + (standard_motions() * by).array());
+    const double deeper_m = there.depth_m - binding_m_;
+    DepthChange by;
+    by_motion(there, place_m, by);
+    const double motion_m = (by - binding_).head<6>().norm();
+    if (deeper_m > kWorth_sd * std::hypot(motion_m, 2.0 * model_.sd_m)) {
+      return;
+    }
+    by_model(there, place_m, by);
+    if (deeper_m < kWorth_sd * (by - binding_).norm()) {
+      least_m_ = least_m_.min(static_cast<float>(there.depth_m) + (standard_cases() * by).array());
     }
   }
 
@@ -280,18 +318,29 @@ class LeastInEach {
   }
 
  private:
-  [[nodiscard]] DepthChange change(Vec3 deeper, Vec3 place_m) const {
-    const DepthChange by_motion =
+  void by_motion(const SurfaceDepth& there, Vec3 place_m, DepthChange& out) const {
+    const Eigen::Matrix<double, 6, 1> change =
         moves_as<Eigen::Matrix<double, 3, 6>>(place_m - centre_m_).transpose() *
-        vector_as<Eigen::Vector3d>(deeper);
-    return root_.transpose() * by_motion;
+        vector_as<Eigen::Vector3d>(there.deeper);
+    out.head<6>() = (root_.transpose() * change).cast<float>();
+  }
+
+  void by_model(const SurfaceDepth& there, Vec3 place_m, DepthChange& out) const {
+    const Vec3 wall = (place_m - there.depth_m * there.deeper) / model_.length_m;
+    const double amplitude_m = model_.sd_m / std::sqrt(static_cast<double>(kWaves));
+    for (Eigen::Index i = 0; i < kWaves; ++i) {
+      const double phase = unit_waves()[static_cast<std::size_t>(i)].dot(wall);
+      out(6 + 2 * i) = static_cast<float>(amplitude_m * std::cos(phase));
+      out(7 + 2 * i) = static_cast<float>(amplitude_m * std::sin(phase));
+    }
   }
 
   Vec3 centre_m_;
+  ModelError model_;
   double binding_m_;
   DepthChange binding_;
   Root root_;  ///< lower triangle: its product with its transpose is the covariance
-  Eigen::Array<double, kMotions, 1> least_m_;
+  Eigen::Array<float, kMotions, 1> least_m_;
 };
 
 /// Calls `take(around_rad, depth)` for places evenly around the screw.
@@ -308,7 +357,8 @@ void sample_row(DepthProbe& depths, const CylinderSurface& screw, double along_m
 
 /// Empty if the covariance is not finite.
 std::optional<ClearanceSpread> spread_of(const SurfaceIndex& bone, const CylinderSurface& screw,
-                                         const Clearance& clearance, const PoseUncertainty& pose) {
+                                         const Clearance& clearance, const PoseUncertainty& pose,
+                                         const ModelError& model) {
   const auto& c = pose.covariance();
   DepthProbe depths(bone);
   const auto binding = depths.at(clearance.place.v);
@@ -316,7 +366,7 @@ std::optional<ClearanceSpread> spread_of(const SurfaceIndex& bone, const Cylinde
       !std::all_of(c.begin(), c.end(), [](double v) { return std::isfinite(v); })) {
     return std::nullopt;
   }
-  LeastInEach least(pose, clearance.clearance_m, clearance.place.v, *binding);
+  LeastInEach least(pose, model, clearance.clearance_m, clearance.place.v, *binding);
   const auto add_row = [&](double along_m, int places) {
     const double half_rad = 0.5 * kTurn_rad / places;
     sample_row(depths, screw, along_m, places, [&](double around_rad, SurfaceDepth there) {
@@ -392,14 +442,17 @@ bool clearance_profile(const SurfaceIndex& bone, const ScrewCylinder& screw,
 }
 
 std::optional<ScrewClearance> screw_clearance(const SurfaceIndex& bone, const ScrewCylinder& screw,
-                                              const PoseUncertainty* pose) {
+                                              const PoseUncertainty* pose,
+                                              const ModelError& model) {
   const auto least = least_clearance(bone, screw);
   if (!least) {
     return std::nullopt;
   }
-  return ScrewClearance{*least, pose != nullptr
-                                    ? spread_of(bone, *CylinderSurface::of(screw), *least, *pose)
-                                    : std::nullopt};
+  ScrewClearance out{*least, std::nullopt};
+  if (pose != nullptr) {
+    out.spread = spread_of(bone, *CylinderSurface::of(screw), *least, *pose, model);
+  }
+  return out;
 }
 
 const char* direction_of(const Clearance& clearance, Side side) {

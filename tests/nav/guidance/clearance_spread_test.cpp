@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <Eigen/Cholesky>
+#include <numbers>
+#include <vector>
 
 #include "base/random.h"
 #include "nav/guidance/screw_clearance.h"
@@ -38,9 +42,10 @@ const SurfaceIndex& two_walls() {
 const ScrewCylinder kScrew{{{0.0, 0.020, 0.0}}, {0, -1, 0}, 0.045, 0.003};
 const Vec3 kMiddle{0.0, -0.0055, 0.0};
 
+/// Of a model that is exact, unless another is given.
 ClearanceSpread spread_of(const SurfaceIndex& bone, const ScrewCylinder& screw,
-                          const PoseUncertainty& pose) {
-  return *screw_clearance(bone, screw, &pose)->spread;
+                          const PoseUncertainty& pose, const ModelError& model = {0.0}) {
+  return *screw_clearance(bone, screw, &pose, model)->spread;
 }
 
 TEST(ClearanceSpread, OfAShiftBesideOneWallIsTheNormalQuantile) {
@@ -91,6 +96,65 @@ TEST(ClearanceSpread, GradesAreAsLikelyAsTheNormalDistributionSays) {
     sum += p;
   }
   EXPECT_NEAR(sum, 1.0, 1e-12);
+}
+
+/// The 5 % quantile of the least depth beside one wall whose places are off by the model's error,
+/// drawn from its covariance between 400 places of the screw.
+double least_beside_a_wall_m(const ModelError& model) {
+  constexpr int kAlong = 40;
+  constexpr int kAround = 10;
+  constexpr int kDraws = 4000;
+  std::vector<Vec3> walls;
+  std::vector<double> depths_m;
+  for (int i = 0; i < kAlong; ++i) {
+    for (int k = 0; k < kAround; ++k) {
+      const double around_rad = std::numbers::pi / 3.0 * (2.0 * k / (kAround - 1) - 1.0);
+      const double y_m = 0.014 - 0.039 * i / (kAlong - 1);
+      walls.push_back({0.010, y_m, kScrew.radius_m * std::sin(around_rad)});
+      depths_m.push_back(0.010 - kScrew.radius_m * std::cos(around_rad));
+    }
+  }
+  const auto n = static_cast<Eigen::Index>(walls.size());
+  Eigen::MatrixXd covariance(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      covariance(i, j) = shared_error_m2(model, walls[static_cast<std::size_t>(i)],
+                                         walls[static_cast<std::size_t>(j)]);
+    }
+  }
+  const Eigen::MatrixXd root = covariance.llt().matrixL();
+  Random random(3);
+  std::vector<double> least_m;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Eigen::VectorXd normal(n);
+    for (double& v : normal) {
+      v = random.normal();
+    }
+    const Eigen::VectorXd off_m = root * normal;
+    double least = 1e9;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      least = std::min(least, depths_m[static_cast<std::size_t>(i)] + off_m(i));
+    }
+    least_m.push_back(least);
+  }
+  std::nth_element(least_m.begin(), least_m.begin() + kDraws / 20, least_m.end());
+  return least_m[kDraws / 20];
+}
+
+TEST(ClearanceSpread, HoldsHowFarTheWallsMayBeOffTheirModel) {
+  for (const double length_m : {0.005, 0.010}) {
+    const ModelError model{0.0005, length_m};
+    const auto spread = spread_of(one_wall(), kScrew, with_sds(kMiddle, 0.0, 0.0), model);
+    const double expected_m = least_beside_a_wall_m(model);
+    EXPECT_NEAR(spread.lower_95_m, expected_m, 0.3 * model.sd_m);
+    // More than one place of the wall would take, less than places that share nothing.
+    EXPECT_LT(expected_m, 0.007 - kQuantile95 * model.sd_m);
+    EXPECT_GT(expected_m, 0.007 - 3.5 * model.sd_m);
+  }
+  const PoseUncertainty exact = with_sds(kMiddle, 0.0, 0.0);
+  EXPECT_EQ(screw_clearance(one_wall(), kScrew, &exact)->spread->lower_95_m,
+            spread_of(one_wall(), kScrew, exact, {kUsualModelError_m}).lower_95_m)
+      << "the usual error, unless another is told";
 }
 
 TEST(ClearanceSpread, IsAbsentWhereTheCovarianceIsNoNumber) {
