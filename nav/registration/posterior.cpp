@@ -109,7 +109,7 @@ Hand hand_at(const Observations& observations, const Prior& prior,
              std::span<const std::array<std::uint32_t, kBlock>> blocks, const Touches& t) {
   constexpr int kRounds = 8;
   constexpr double kLeast_m = 0.0001;
-  constexpr double kMax_m = 0.004;
+  constexpr double kMax_m = 0.010;
   constexpr double kSdByMedian = 1.4826;
   constexpr double kBelongs = 0.5;
   Hand out;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/random.h"
 #include "engine/phantom/phantom.h"
 #include "nav/registration/prior.h"
 #include "nav/registration/registration.h"
@@ -146,6 +147,24 @@ TEST(PosteriorRegistration, AModelKnownToBeOffLeavesMoreOpen) {
   o.least_model_sd_m = 0.0005;
   const auto off = register_by_pose_search(*l4().model, strokes.tips(), o).value();
   EXPECT_GT(off.predicted_tre_m, 1.3 * exact.predicted_tre_m);
+}
+
+/// Points about the bone, but much farther off than a hand and tissue are: the prior does not
+/// predict them, whatever pose fits best.
+TEST(PosteriorRegistration, ScatterThatNoHandLeavesIsRefusedForIt) {
+  const auto strokes =
+      test::digitize_strokes(l4().from.mesh, test::StrokeVariant::kFull, 2).value();
+  const auto refused_for_scatter = [&](double noise_m) {
+    Random random(5);
+    std::vector<Point<World>> tips = strokes.tips();
+    for (Point<World>& tip : tips) {
+      tip.v += noise_m * Vec3{random.normal(), random.normal(), random.normal()};
+    }
+    const auto r = register_by_pose_search(*l4().model, tips, options_of(l4()));
+    return r && !r->accepted && names(*r, Kind::kNoise);
+  };
+  EXPECT_TRUE(refused_for_scatter(0.009));
+  EXPECT_FALSE(refused_for_scatter(0.002)) << "the twin";
 }
 
 TEST(PosteriorPrior, TheDensityOfTheHeightAddsUpToOne) {
