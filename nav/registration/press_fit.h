@@ -53,8 +53,9 @@ struct PressFit {
   std::array<double, 36> likeliest_covariance{};
 };
 
-/// Fits the step of the pose of `strokes`. Without places, the result is that of the strokes. Empty
-/// if the strokes leave a motion undetermined or a number is not finite.
+/// Fits the step of the pose of `strokes`. Without places, the result is that of the strokes, with
+/// the usual error of a model in place of what they tell of it. Empty if the strokes leave a motion
+/// undetermined or a number is not finite.
 [[nodiscard]] std::optional<PressFit> fit_presses(const VertebraModel& model,
                                                   const Registration& strokes,
                                                   std::span<const PressedPlace> places,

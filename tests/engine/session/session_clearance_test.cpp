@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 #include "engine/session/session.h"
 #include "tests/support/scripted_operation.h"
@@ -41,11 +42,12 @@ TEST(SessionClearance, IsThatOfTheScrewAlongTheToolAsItIsHeld) {
   const auto aside = s.along({0.0255, 0.020, 0.0});
   ASSERT_TRUE(aside && aside->spread);
   EXPECT_NEAR(aside->least.clearance_m, 0.0015, kSearch_m);
-  EXPECT_LT(aside->spread->lower_95_m, 0.0015 - 1.645 * kSd_m) << "guide and drill err as well";
-  EXPECT_GT(aside->spread->probability(nav::PedicleGrade::kA), 0.8);
+  EXPECT_LT(aside->spread->lower_95_m, 0.0015 - 1.645 * std::hypot(kSd_m, nav::kUsualModelError_m))
+      << "guide and drill err as well";
+  EXPECT_GT(aside->spread->probability(nav::PedicleGrade::kA), 0.7);
   const auto out = s.along({0.0285, 0.020, 0.0});
   EXPECT_NEAR(out->least.clearance_m, -0.0015, kSearch_m);
-  EXPECT_GT(out->spread->probability(nav::PedicleGrade::kB), 0.5);
+  EXPECT_GT(out->spread->probability(nav::PedicleGrade::kB), 0.4);
 }
 
 /// SD of the clearance beside a wall that runs along the screw, from its bound.
@@ -60,7 +62,9 @@ TEST(SessionClearance, CountsHowFarADrillGoesAstray) {
   const double straight_m = sd_beside_wall_m({0.0, 0.0});
   const double skived_m = sd_beside_wall_m({0.0, 0.002});
   const double added_m2 = skived_m * skived_m - straight_m * straight_m;
-  EXPECT_NEAR(added_m2, 0.002 * 0.002, 0.2 * 0.002 * 0.002);
+  // A wall that is off its model here and there makes the bound a little more than the root of the
+  // sum.
+  EXPECT_NEAR(added_m2, 0.002 * 0.002, 0.3 * 0.002 * 0.002);
   EXPECT_GT(sd_beside_wall_m({0.1, 0.0}), straight_m + 0.001) << "some 35 mm behind the entry";
 }
 
