@@ -2,18 +2,17 @@
 
 #include <algorithm>
 
-#include "base/check.h"
 #include "nav/evaluation/errors.h"
 #include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::engine {
 namespace {
 
-/// The bone in the room, from which its model may differ.
+/// The bone in the room, from which its model may differ; empty where the room has none.
 nav::SurfaceIndex bone_of(const sim::RoomDescription& room, std::string_view label) {
   const auto level = std::ranges::find(room.levels, label, &sim::RoomLevel::label);
-  ORTHONAV_CHECK(level != room.levels.end());
-  return nav::SurfaceIndex({level->vertices_m, level->triangles});
+  return level == room.levels.end() ? nav::SurfaceIndex(nav::TriangleMesh{})
+                                    : nav::SurfaceIndex({level->vertices_m, level->triangles});
 }
 
 }  // namespace
@@ -89,6 +88,7 @@ LevelTruth GroundTruthRecorder::truth_of(const LevelState& level) const {
     }
     truth.tre_m = sum / (2.0 * static_cast<double>(level.plan.screws.size()));
   }
+  const nav::SurfaceIndex bone = bone_of(headset_.room(), level.plan.label);
   for (std::size_t s = 0; s < level.plan.screws.size(); ++s) {
     const nav::ScrewPlan& plan = level.plan.screws[s];
     ScrewTruth& screw = truth.screws.emplace_back();
@@ -109,7 +109,6 @@ LevelTruth GroundTruthRecorder::truth_of(const LevelState& level) const {
         screw.preoperative_angle_error_rad = before.angle_rad;
         screw.preoperative_entry_error_m = before.entry_m;
       }
-      const nav::SurfaceIndex bone = bone_of(headset_.room(), wire.level);
       screw.driven = nav::cylinder_along(axis, plan, bone);
       screw.clearance = screw.driven ? nav::least_clearance(bone, *screw.driven) : std::nullopt;
     }

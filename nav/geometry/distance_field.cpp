@@ -49,16 +49,17 @@ DistanceField::DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near,
   bool inside = false;
   for (std::size_t i = 0; i < samples; ++i) {
     const Vec3 place = place_m(i);
-    // Where the bone's surface is farther than the neighbour, both lie on the same side of it. Half
-    // a cell more, so that the neighbour itself is clear of it.
-    if (i % row == 0 || bone.nearest(place, 1.5 * cell_m)) {
-      inside = bone.contains(place);
-    }
     // The surface is no farther than its point that is closest to the neighbour.
     double within_m = i % row > 0 ? (closest_m - place).norm() * (1.0 + 1e-12) + 1e-15 : 1e9;
     if (const auto found = near.nearest(place, within_m)) {
       closest_m = found->point_m;
       within_m = found->distance_m;
+    }
+    // Where the bone's surface is farther than the neighbour, both lie on the same side of it. Half
+    // a cell more keeps the neighbour itself off the surface.
+    const double clear_m = 1.5 * cell_m;
+    if (i % row == 0 || within_m < clear_m || bone.nearest(place, clear_m)) {
+      inside = bone.contains(place);
     }
     distance_m_.push_back(signed_distance_m(within_m, inside));
   }

@@ -212,9 +212,8 @@ void LeastDepth::refine(const Patch& patch, double depth_m) {
   }
 }
 
-constexpr std::size_t kMotions = 1024;
-/// Plane waves of the model's error. With so few, two places that share nothing are taken to share
-/// up to a fourth or so.
+constexpr std::size_t kCases = 1024;
+/// Plane waves of the model's error. With so few, the correlation of two places is off by some 0.2.
 constexpr Eigen::Index kWaves = 8;
 /// Largest distance between rows along the screw, and the places in each row: with 30° between
 /// them, at most 1 - cos(15°) = 3 % of a motion is missed.
@@ -226,7 +225,7 @@ constexpr double kWorth_sd = 3.5;
 
 /// Standard normal numbers, those of one case in each row: the components of a motion, then the
 /// amplitudes of the model's error, a cosine and a sine for each wave.
-using Cases = Eigen::Matrix<float, kMotions, 6 + 2 * kWaves>;
+using Cases = Eigen::Matrix<float, kCases, 6 + 2 * kWaves>;
 /// How the depth of a place changes with each of them.
 using DepthChange = Eigen::Matrix<float, 6 + 2 * kWaves, 1>;
 using Root = Eigen::Matrix<double, 6, 6>;
@@ -257,7 +256,7 @@ const Cases& standard_cases() {
   return kMade;
 }
 
-/// Waves whose mean is `shared_error_m2` of unit SD and length.
+/// Wave vectors (rad per correlation length) of a field with the covariance `shared_error_m2`.
 std::array<Vec3, kWaves> made_waves() {
   std::array<Vec3, kWaves> waves;
   Random random(1759);
@@ -276,7 +275,7 @@ const std::array<Vec3, kWaves>& unit_waves() {
   return kMade;
 }
 
-/// The least depth in each of the motions, over the places so far.
+/// The least depth in each case, over the places so far.
 class LeastInEach {
  public:
   LeastInEach(const PoseUncertainty& pose, const ModelError& model, double least_m, Vec3 place_m,
@@ -309,9 +308,9 @@ class LeastInEach {
   [[nodiscard]] ClearanceSpread spread() {
     ClearanceSpread out;
     for (const double clearance_m : least_m_) {
-      out.grade_probability[static_cast<std::size_t>(grade_of(clearance_m))] += 1.0 / kMotions;
+      out.grade_probability[static_cast<std::size_t>(grade_of(clearance_m))] += 1.0 / kCases;
     }
-    constexpr std::size_t kBelow = kMotions / 20;
+    constexpr std::size_t kBelow = kCases / 20;
     std::nth_element(least_m_.begin(), least_m_.begin() + kBelow, least_m_.end());
     out.lower_95_m = least_m_[kBelow];
     return out;
@@ -340,7 +339,7 @@ class LeastInEach {
   double binding_m_;
   DepthChange binding_;
   Root root_;  ///< lower triangle: its product with its transpose is the covariance
-  Eigen::Array<float, kMotions, 1> least_m_;
+  Eigen::Array<float, kCases, 1> least_m_;
 };
 
 /// Calls `take(around_rad, depth)` for places evenly around the screw.

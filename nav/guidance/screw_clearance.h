@@ -82,19 +82,20 @@ struct ScrewClearance {
 /// direction in which the depth grows and q the wall nearest to p, is linear in the motion and in
 /// the amplitudes of f, a sum of plane waves whose covariance is about that of `model` (Rahimi and
 /// Recht 2007, "Random features for large-scale kernel machines"). Nobody touches the walls of a
-/// pedicle: f is the segmentation's usual error there, whatever was found where the bone was
-/// stroked. The clearance is the least depth over some 180 places all over the screw, so another
-/// wall may become the nearest. A single normal distribution about the nearest place would miss
-/// that and be too optimistic in a narrow pedicle (two equally near walls cost another 0.3 SD). The
-/// distribution of the least depth is taken over 1024 cases, the same for every screw and frame, so
-/// that figures of similar screws differ only by the screws and don't flicker: motions are
-/// quasi-random points in six dimensions (Roberts 2018, the additive recurrence R6), made normal.
+/// pedicle, so `model` should be the usual error of a segmentation, whatever was found where the
+/// bone was stroked. The clearance is the least depth over some 180 places all over the screw, so
+/// another wall may become the nearest. A single normal distribution about the nearest place would
+/// miss that and be too optimistic in a narrow pedicle (two equally near walls cost another 0.3
+/// SD). The distribution of the least depth is taken over 1024 cases, the same for every screw and
+/// frame, so that figures of similar screws differ only by the screws and don't flicker: motions
+/// are quasi-random points in six dimensions (Roberts 2018, the additive recurrence R6), made
+/// normal.
 ///
 /// Each place speaks for its arc of the circumference, for which the wall is taken as a plane. That
 /// and the curvature of walls err to the safe side: against exact clearances in the same motions,
 /// at ten screws of real vertebrae, the bound is 0.01 mm too low for SDs of 0.3 mm and 0.2° along
 /// and about each axis, 0.05 mm for 0.8 mm and 0.6°, 0.12 mm for 1.5 mm and 1.1°, on average. It
-/// covers only what covariance and model hold.
+/// covers only what `pose` and `model` hold.
 [[nodiscard]] std::optional<ScrewClearance> screw_clearance(
     const SurfaceIndex& bone, const ScrewCylinder& screw, const PoseUncertainty* pose,
     const ModelError& model = {kUsualModelError_m});

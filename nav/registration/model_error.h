@@ -34,14 +34,14 @@ inline constexpr double kSmoothScale = 2.146193;
 /// Covariance of a model's error at two places.
 [[nodiscard]] double shared_error_m2(const ModelError& error, Vec3 a, Vec3 b);
 
-/// How the model's error is in a pose that was fitted to points on the bone: places that are
-/// touched later share it.
+/// How an error of the model has moved a pose that was fitted to points on the bone. Places that
+/// are touched later lie on the same model.
 struct ModelShare {
   std::vector<Vec3> places_m;  ///< in the model's frame; none: not known
   /// Of each: the step (translation m, rotation vector rad, about the centre of the pose's
   /// uncertainty) from the fitted to the true pose, per metre that the bone lies above its model.
   std::vector<std::array<double, 6>> step;
-  std::array<double, 36> rest{};  ///< of the pose's covariance, by rows: what is not the model's
+  std::array<double, 36> rest{};  ///< the pose's covariance without the model's part, by rows
 };
 
 }  // namespace orthonav::nav

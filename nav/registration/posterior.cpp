@@ -1025,8 +1025,8 @@ std::vector<EstimatedHeight> heights_of(Averaged::Units& units, const Touches& t
   return out;
 }
 
-/// How the model's error is in the mean pose, by all points of the grid. `mean`: what `assembled`
-/// made of them.
+/// How an error of the model has moved the mean pose, over all points of the grid. `mean`: what
+/// `assembled` made of them.
 ModelShare model_share_of(Averaged::Units& units, const Touches& t, const Answers& answers,
                           const Posterior& mean) {
   const Correlated field{units.prior.model_length_m, true};
@@ -1036,7 +1036,7 @@ ModelShare model_share_of(Averaged::Units& units, const Touches& t, const Answer
   Gain gain = Gain::Zero(6, columns.rows());
   Matrix6 of_model = Matrix6::Zero();
   for (const auto& [node, a] : answers) {
-    // The step is linear in the heights: its covariance with them, less what the standoff takes.
+    // The step is linear in the heights; valleys and standoff are estimated along with it.
     const auto root = units.factor(node)->root.triangularView<Eigen::Lower>();
     const Eigen::MatrixXd solved = root.adjoint().solve(root.solve(columns.leftCols<kMoved + 1>()));
     const double noise_m2 = a.part.noise_m * a.part.noise_m;
@@ -1051,7 +1051,7 @@ ModelShare model_share_of(Averaged::Units& units, const Touches& t, const Answer
     const Unit& unit = units.units[static_cast<std::size_t>(k)];
     out.places_m.push_back(
         (t.from_world * Point<World>{0.5 * (unit.quarter_m + unit.three_quarters_m)}).v);
-    // The points took the step that the error asked for: the true pose is back from there.
+    // The error moved the fitted pose by its gain; the true pose is that much back.
     Eigen::Map<Vector6>(out.step.emplace_back().data()) = -gain.col(k);
   }
   Eigen::Map<Rows6>(out.rest.data()) = Eigen::Map<const Rows6>(mean.covariance.data()) - of_model;

@@ -19,6 +19,33 @@ struct PressedHeight {
   double sd_m = 0.0;  ///< of this place alone, from tracking and tremor
 };
 
+/// What an error of the model, a field of SD 1 over the bone, does to pressed places: it changes
+/// the height of each, and it has moved the pose of the strokes, against which heights are
+/// measured.
+class FieldCovariance {
+ public:
+  /// `length_m`: over which the error is correlated. Keeps a reference to `strokes`.
+  FieldCovariance(const ModelShare& strokes, double length_m, Vec3 centre_m);
+
+  /// Covariance of the pose of the strokes, by rows.
+  [[nodiscard]] const std::array<double, 36>& pose() const { return pose_; }
+  /// Covariance of that pose with the error at a place.
+  [[nodiscard]] std::array<double, 6> with_place(Vec3 at_m) const;
+  /// Covariance of a height with the pose, negated, as the step to the true pose lowers heights.
+  /// `place`: `with_place` there.
+  [[nodiscard]] std::array<double, 6> with_pose(const PressedHeight& at,
+                                                const std::array<double, 6>& place) const;
+  /// Covariance of two heights.
+  [[nodiscard]] double between(const PressedHeight& a, const std::array<double, 6>& place_a,
+                               const PressedHeight& b, const std::array<double, 6>& place_b) const;
+
+ private:
+  const ModelShare& strokes_;
+  double length_m_;
+  Vec3 centre_m_;
+  std::array<double, 36> pose_{};
+};
+
 /// What the heights of pressed places say about the pose of the strokes: a Gaussian posterior
 /// (Rasmussen & Williams 2006, section 2.7) whose noise consists of the error of each press, the
 /// model's own error as a field over the bone, and World's random walk. The field is the same as

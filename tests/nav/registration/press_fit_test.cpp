@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/random.h"
-#include "nav/registration/press_covariance.h"
 #include "tests/nav/registration/stroked_bone.h"
 #include "tests/support/stroke_truths.h"
 
@@ -19,8 +18,7 @@ Vec3 somewhere(Random& random, double scale) {
   return scale * Vec3{random.normal(), random.normal(), random.normal()};
 }
 
-/// The covariances of a height that the model's error changes, and of the pose that it has changed
-/// before, are those of the same sums over the error at every place.
+/// Heights and pose as sums over the error at every place have the same covariances.
 TEST(FieldCovariance, IsThatOfTheErrorAtAllPlaces) {
   constexpr double kLength_m = 0.007;
   constexpr int kStrokes = 12;
@@ -87,7 +85,7 @@ double worst_rms_m(const StrokedBone& bone, const PressFit& fit) {
   return worst_m;
 }
 
-/// Bone under a little tissue, stroked and pressed, and the model of a segmentation.
+/// A bone, stroked and pressed, and its model, which a segmentation got wrong.
 class SegmentedBone : public StrokedBone {
  public:
   SegmentedBone(std::uint64_t seed, double model_sd_m, double tissue_m)
@@ -133,7 +131,8 @@ class SegmentedBone : public StrokedBone {
   }
 };
 
-/// A press beside a stroke is off its model as the stroke was: together they are not twice as sure.
+/// The model is off by as much under a press as under the stroke beside it: both together are
+/// hardly surer than one.
 TEST(PressFit, KnowsThatStrokesWereOffTheSameModel) {
   constexpr std::uint64_t kSeeds = 5;
   double squares = 0.0, told_m2 = 0.0, apart_m2 = 0.0;
@@ -153,7 +152,7 @@ TEST(PressFit, KnowsThatStrokesWereOffTheSameModel) {
   EXPECT_GT(std::sqrt(told_m2 / apart_m2), 1.05) << "the twin: apart they seem to be surer";
 }
 
-/// One that is not known to be off is trusted too much.
+/// Where nothing is told of how far views are off, they are trusted too much.
 TEST(PressFit, DepthViewsThatAreOffAlongTheirRaysStillTurnTheBone) {
   constexpr double kOff_m = 0.003;
   constexpr double kNoise_m = 0.001;
