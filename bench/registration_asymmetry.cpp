@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "nav/registration/surface_fit.h"
+#include "nav/registration/search.h"
 
 namespace orthonav::bench {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/transform.h"
 #include "engine/session/text/messages.h"
-#include "nav/registration/pressed_places.h"
+#include "nav/registration/presses.h"
 
 namespace orthonav::engine {
 

@@ -32,8 +32,8 @@ struct ExtremePoints {
 
 /// ICP from both coarse poses on the trimmed model, the better one (the smaller RMSE) first; the
 /// paper shows that one. `trimmed` is the model without the points "which can definitely not be
-/// reached" (nav/registration/trimming.h), in frame Vertebra; its vertices are the cloud whose
-/// extreme points count. An Error if three of either side's extreme points lie on a line.
+/// reached" (nav/registration/vertebra_model.h), in frame Vertebra; its vertices are the cloud
+/// whose extreme points count. An Error if three of either side's extreme points lie on a line.
 Result<std::array<IcpResult, 2>> register_points(const TriangleMesh& trimmed,
                                                  const SurfaceIndex& surface,
                                                  std::span<const Point<World>> digitized);

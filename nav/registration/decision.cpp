@@ -9,8 +9,7 @@
 #include "base/random.h"
 #include "base/reason.h"
 #include "base/translation.h"
-#include "nav/registration/pose_candidates.h"
-#include "nav/registration/shaft_collision.h"
+#include "nav/registration/search.h"
 
 namespace orthonav::nav::posterior {
 namespace {
@@ -34,19 +33,22 @@ std::vector<Point<World>> tips_of(const Observations& observations) {
   return tips;
 }
 
-/// Share of the shafts that would go through bone. For the mirror image the points are mirrored in
-/// the model's frame, which is the same as to mirror the bone.
-double collisions(const Observations& observations, const VertebraModel& model,
-                  const Transform<World, Vertebra>& pose, bool mirrored) {
-  const auto from_world = pose.inverse();
-  const auto seen = [&](Vec3 v) { return mirrored ? Vec3{-v.x, v.y, v.z} : v; };
-  std::vector<Point<World>> tips;
-  std::vector<Vec3> shafts;
-  for (const StrokePoint& p : observations.strokes) {
-    tips.push_back(Point<World>{seen((from_world * p.tip).v)});
-    shafts.push_back(seen(from_world.rotation() * p.shaft));
+/// The first millimetres of the shaft are left out: they may graze the bone that the tip touches.
+constexpr double kShaftFrom_m = 0.006;
+constexpr double kShaftTo_m = 0.060;
+constexpr double kShaftStep_m = 0.003;
+/// Shafts have a width, and poses and fields have errors: only depths beyond this count.
+constexpr double kShaftInside_m = 0.002;
+constexpr std::size_t kShaftsChecked = 300;
+
+bool goes_through(const DistanceField& field, Vec3 tip, Vec3 shaft) {
+  DistanceField::Value value;
+  for (double along = kShaftFrom_m; along < kShaftTo_m; along += kShaftStep_m) {
+    if (field.at(tip + along * shaft, value) && value.distance_m < -kShaftInside_m) {
+      return true;
+    }
   }
-  return shaft_collision_fraction(model, {}, tips, shafts);
+  return false;
 }
 
 /// A hypothesis with its posterior.
@@ -72,8 +74,8 @@ struct Tried {
     if (found) {
       const double rows = static_cast<double>(
           std::min(Averaged::kUnits, units_of(observations, Averaged::kUnits).size()));
-      shaft_collisions = collisions(observations, *model, found->world_from_vertebra,
-                                    kind == Explanation::Kind::kMirror);
+      shaft_collisions = shaft_collision_fraction(observations, *model, found->world_from_vertebra,
+                                                  kind == Explanation::Kind::kMirror);
       log_shafts =
           rows * (shaft_collisions * std::log(prior.shaft_in_bone / (1.0 - prior.shaft_in_bone)));
     }
@@ -175,6 +177,30 @@ Transform<World, Vertebra> mirrored_start(const VertebraModel& model, const Clou
 }
 
 }  // namespace
+
+double shaft_collision_fraction(const Observations& observations, const VertebraModel& model,
+                                const Transform<World, Vertebra>& world_from_vertebra,
+                                bool mirrored) {
+  const DistanceField& field = model.search_field().field();
+  const auto from_world = world_from_vertebra.inverse();
+  // To mirror the points in the model's frame is the same as to mirror the bone.
+  const auto seen = [&](Vec3 v) { return mirrored ? Vec3{-v.x, v.y, v.z} : v; };
+  const std::vector<StrokePoint>& all = observations.strokes;
+  const std::size_t step = std::max<std::size_t>(1, all.size() / kShaftsChecked);
+  double looked_at = 0.0;
+  double through = 0.0;
+  for (std::size_t i = 0; i < all.size(); i += step) {
+    if (!(all[i].shaft.squared_norm() > 0.5)) {
+      continue;
+    }
+    looked_at += 1.0;
+    if (goes_through(field, seen((from_world * all[i].tip).v),
+                     seen(from_world.rotation() * all[i].shaft))) {
+      through += 1.0;
+    }
+  }
+  return looked_at > 0.0 ? through / looked_at : 0.0;
+}
 
 RegistrationLimits limits_of(const Question& question) {
   constexpr double kOutlierPower = 18.0;  // 1 of 20 points on average, 3 of 10 once in 600

@@ -25,6 +25,14 @@ struct Question {
 
 [[nodiscard]] RegistrationLimits limits_of(const Question& question);
 
+/// Fraction of the points at which, in this pose, the pointer's shaft would have gone through bone:
+/// the space that the pointer occupied must be free. A point whose shaft is not known does not
+/// count. 0 without points. Looks at a few hundred of them.
+[[nodiscard]] double shaft_collision_fraction(const Observations& observations,
+                                              const VertebraModel& model,
+                                              const Transform<World, Vertebra>& world_from_vertebra,
+                                              bool mirrored = false);
+
 /// One explanation of the points, and its probability among all that were tried.
 struct Explanation {
   enum class Kind : std::uint8_t { kAnswer, kOtherPose, kLevel, kMirror, kSize };

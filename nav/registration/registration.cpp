@@ -1,18 +1,23 @@
+#include "nav/registration/registration.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <Eigen/Dense>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "base/reason.h"
 #include "base/translation.h"
+#include "nav/geometry/matrix_as.h"
 #include "nav/geometry/principal_axes.h"
+#include "nav/geometry/triangle.h"
 #include "nav/registration/decision.h"
-#include "nav/registration/degeneracy.h"
-#include "nav/registration/errors_at_targets.h"
-#include "nav/registration/pose_candidates.h"
+#include "nav/registration/search.h"
+#include "nav/statistics/symmetric_eigen.h"
 
 namespace orthonav::nav {
 namespace {
@@ -27,11 +32,175 @@ constexpr double kWidest_m = 0.1;
 constexpr double kWidestOfAnyBone_m = 0.3;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+// ---------------------------------------------------------------------------------------------
+// What an uncertain pose means at the targets.
+
+/// Both ends of a bone along each of its principal axes, about.
+std::vector<Point<Vertebra>> ends_of(const PrincipalAxes& bone) {
+  constexpr double kEndSds = 2.0;
+  std::vector<Point<Vertebra>> ends;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const double side : {kEndSds, -kEndSds}) {
+      ends.push_back({bone.centre_m + side * bone.deviation_m[k] * bone.axes[k]});
+    }
+  }
+  return ends;
+}
+
+constexpr double kCovered_m = 0.005;
+/// The SD of a place after a few strokes over it.
+constexpr double kPinned_m = 0.0003;
+/// The spinous process lies within this distance of the midline.
+constexpr double kMidline_m = 0.007;
+constexpr double kLateral_m = 0.028;
+/// Within this distance of the middle, a place is neither upper nor lower.
+constexpr double kMiddle_m = 0.006;
+
+double tre2_m2(const Matrix6& covariance, Vec3 centre_m, std::span<const Point<Vertebra>> targets) {
+  double worst = 0.0;
+  for (const Point<Vertebra>& target : targets) {
+    const auto m = moves_as<Eigen::Matrix<double, 3, 6>>(target.v - centre_m);
+    worst = std::max(worst, (m * covariance * m.transpose()).trace());
+  }
+  return worst;
+}
+
+Vec3 middle(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  return (mesh.vertices_m[t[0]] + mesh.vertices_m[t[1]] + mesh.vertices_m[t[2]]) / 3.0;
+}
+
+BonePlace place_of(const VertebraModel& model, Vec3 p) {
+  using Height = BonePlace::Height;
+  using Part = BonePlace::Part;
+  const Vec3 centre = model.reachable_axes().centre_m;
+  const double x = p.x - centre.x;
+  const double z = p.z - centre.z;
+  const Height height = z > kMiddle_m    ? Height::kUpper
+                        : z < -kMiddle_m ? Height::kLower
+                                         : Height::kMiddle;
+  if (std::abs(x) < kMidline_m) {
+    return {Part::kSpinousProcess, std::nullopt, height};
+  }
+  return {std::abs(x) > kLateral_m ? Part::kFacet : Part::kLamina,
+          x > 0.0 ? Side::kLeft : Side::kRight, height};
+}
+
+/// The largest part of a motion at the targets; (translation, rotation) in the vertebra's axes.
+UncertainMotion::Kind kind_of(const Vector6& motion, double lever_m) {
+  using enum UncertainMotion::Kind;
+  constexpr std::array<UncertainMotion::Kind, 6> kKinds = {
+      kLateral, kAnteroposterior, kCraniocaudal, kFlexion, kLateralBending, kAxialRotation};
+  std::size_t most = 0;
+  double length = 0.0;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const double m = std::abs(motion(static_cast<Eigen::Index>(k))) * (k < 3 ? 1.0 : lever_m);
+    if (m > length) {
+      length = m, most = k;
+    }
+  }
+  return kKinds[most];
+}
+
+/// The motion in whose direction the error at the targets is largest.
+UncertainMotion::Kind worst_motion(const Matrix6& covariance, Vec3 centre_m,
+                                   std::span<const Point<Vertebra>> targets) {
+  Matrix6 at_targets = Matrix6::Zero();
+  double lever_m = 0.0;
+  for (const Point<Vertebra>& target : targets) {
+    const auto m = moves_as<Eigen::Matrix<double, 3, 6>>(target.v - centre_m);
+    at_targets += m.transpose() * m;
+    lever_m = std::max(lever_m, (target.v - centre_m).norm());
+  }
+  // A square root of the covariance: root · rootᵀ.
+  const SymmetricEigen6 own = symmetric_eigen(rows_of<36>(covariance));
+  const Eigen::Map<const Vector6> variances(own.values.data());
+  const Matrix6 root = Eigen::Map<const Matrix6>(own.vectors.data()) *
+                       variances.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const SymmetricEigen6 errors =
+      symmetric_eigen(rows_of<36>(Matrix6(root.transpose() * at_targets * root)));
+  return kind_of(root * Eigen::Map<const Matrix6>(errors.vectors.data()).col(5), lever_m);
+}
+
+/// The covariance after one more touch there: Kalman's update.
+Matrix6 after_touch(const Matrix6& covariance, Vec3 lever_arm, Vec3 normal) {
+  const Vec3 by_rotation = lever_arm.cross(normal);
+  Vector6 j;
+  j << normal.x, normal.y, normal.z, by_rotation.x, by_rotation.y, by_rotation.z;
+  const Vector6 gain = covariance * j;
+  return covariance - gain * gain.transpose() / (j.dot(gain) + kPinned_m * kPinned_m);
+}
+
+/// Names the motion that adds most to the error at the worst of the targets, and the place of the
+/// reachable surface where strokes would reduce that error most.
+void put_weakest(const VertebraModel& model, const PoseUncertainty& uncertainty,
+                 std::span<const Point<Vertebra>> targets, Registration& r) {
+  const auto covariance = matrix_as<Matrix6>(uncertainty.covariance());
+  const Vec3 centre = uncertainty.centre_m();
+  const double before = tre2_m2(covariance, centre, targets);
+  r.weakest = {worst_motion(covariance, centre, targets), std::sqrt(before)};
+  r.stroke_next.reset();
+  r.stroke_next_at = {};
+  const TriangleMesh& mesh = model.reachable();
+  const std::size_t step = std::max<std::size_t>(1, mesh.triangles.size() / 400);
+  double least = before;
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += step) {
+    const auto& t = mesh.triangles[i];
+    const Vec3 at = middle(mesh, t);
+    const Vec3 normal =
+        triangle_normal({mesh.vertices_m[t[0]], mesh.vertices_m[t[1]], mesh.vertices_m[t[2]]});
+    const double now = tre2_m2(after_touch(covariance, at - centre, normal), centre, targets);
+    if (now < least) {
+      least = now;
+      r.stroke_next = place_of(model, at);
+      r.stroke_next_at = {at};
+    }
+  }
+}
+
+/// The fraction of the reachable surface's area that lies within 5 mm of one of these places.
+double coverage_fraction(const VertebraModel& model, std::span<const Vec3> places_m) {
+  // Cells that hold a place, and their neighbours.
+  const auto cell = [](double x) { return static_cast<int>(std::floor(x / kCovered_m)); };
+  std::set<std::array<int, 3>> touched;
+  for (const Vec3& at : places_m) {
+    touched.insert({cell(at.x), cell(at.y), cell(at.z)});
+  }
+  const auto near = [&](Vec3 at) {
+    for (const double dx : {-0.5, 0.5}) {
+      for (const double dy : {-0.5, 0.5}) {
+        for (const double dz : {-0.5, 0.5}) {
+          if (touched.count({cell(at.x + dx * kCovered_m), cell(at.y + dy * kCovered_m),
+                             cell(at.z + dz * kCovered_m)}) != 0) {
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  };
+  double covered = 0.0;
+  double all = 0.0;
+  const TriangleMesh& mesh = model.reachable();
+  for (const auto& t : mesh.triangles) {
+    const double area =
+        triangle_area_m2({mesh.vertices_m[t[0]], mesh.vertices_m[t[1]], mesh.vertices_m[t[2]]});
+    all += area;
+    if (near(middle(mesh, t))) {
+      covered += area;
+    }
+  }
+  return all > 0.0 ? covered / all : 0.0;
+}
+
+// ---------------------------------------------------------------------------------------------
+// The answer, from the decision.
 
 /// The points against the bone's whole surface at a pose.
 struct Fit {
-  SurfaceFit touched;   ///< the points' places alone
-  double rmse_m = 0.0;  ///< about the mean height of the tip
+  std::vector<Vec3> places_m;  ///< of the points, in the model's frame
+  double rmse_m = 0.0;         ///< about the mean height of the tip
   /// Of the pose, about the points' centre, by points that each tell of the height with SD 1.
   Matrix6 information = Matrix6::Zero();
 };
@@ -49,9 +218,7 @@ Fit fit_at(const BoneSurface& bone, const Observations& observations,
     Eigen::Matrix<double, 6, 1> moves;
     moves << place.out.x, place.out.y, place.out.z, turned.x, turned.y, turned.z;
     out.information += moves * moves.transpose();
-    FittedPoint& touched = out.touched.points.emplace_back();
-    touched.lever_arm_m = at_m;
-    touched.weight = 1.0;
+    out.places_m.push_back(at_m);
     squares_m2 += std::pow(place.distance_m - observations.tip_radius_m - standoff_m, 2);
   }
   out.rmse_m = std::sqrt(squares_m2 / static_cast<double>(observations.strokes.size()));
@@ -63,7 +230,7 @@ double effective_points(const Posterior& answer, const Fit& fit) {
   const Matrix6 covariance = Eigen::Map<const Matrix6>(answer.covariance.data());
   const double spread_m2 = answer.hand.spread_m * answer.hand.spread_m;
   const double by_each = std::pow((fit.information * covariance).determinant(), 1.0 / 6.0);
-  return by_each > 0.0 ? static_cast<double>(fit.touched.points.size()) * spread_m2 / by_each : 0.0;
+  return by_each > 0.0 ? static_cast<double>(fit.places_m.size()) * spread_m2 / by_each : 0.0;
 }
 
 /// Whether an explanation is of the answer's own width: the targets are where it puts them, about.
@@ -148,6 +315,39 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
 
 }  // namespace
 
+std::vector<Point<Vertebra>> targets_of(const VertebraModel& model,
+                                        const PoseSearchRegistrationOptions& options) {
+  if (!options.targets.empty()) {
+    return options.targets;
+  }
+  if (model.bone() == Bone::kAny) {
+    return ends_of(model.reachable_axes());
+  }
+  // Pedicle screws enter about 20 mm beside the midline and end in the body.
+  const Vec3 back = model.reachable_axes().centre_m;
+  std::vector<Point<Vertebra>> usual;
+  for (const double side : {1.0, -1.0}) {
+    usual.push_back({back + Vec3{side * 0.020, 0.0, 0.0}});
+    usual.push_back({back + Vec3{side * 0.008, -0.045, 0.0}});
+  }
+  return usual;
+}
+
+void put_errors(const VertebraModel& model, const PoseUncertainty& own, const CommonErrors& common,
+                std::span<const Point<Vertebra>> targets, Registration& r) {
+  r.predicted_tre_m = r.tre_95_m = r.tre_99_m = 0.0;
+  for (const Point<Vertebra>& target : targets) {
+    r.predicted_tre_m = std::max(r.predicted_tre_m, own.predicted_tre_m(target));
+    r.tre_95_m = std::max(r.tre_95_m, own.tre_quantile_m(target, 0.95));
+    r.tre_99_m = std::max(r.tre_99_m, own.tre_quantile_m(target, 0.99));
+  }
+  if (model.bone() == Bone::kVertebra) {  // whose places and motions have names
+    put_weakest(model, own, targets, r);
+  }
+  r.common = common;
+  r.uncertainty = with_common(own, common);
+}
+
 bool is_provisional(const Registration& r) {
   using Kind = RefusalReason::Kind;
   // Root mean square error at the screws above which a pose is not good enough for pressed places.
@@ -225,7 +425,7 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
   r.standoff_m = answer.standoff_m;
   r.inlier_fraction = d.inlier_fraction;
   r.effective_points = effective_points(answer, fit);
-  r.coverage_fraction = coverage_fraction(model, fit.touched);
+  r.coverage_fraction = coverage_fraction(model, fit.places_m);
   r.shaft_collision_fraction = d.shaft_collision_fraction;
   r.field_sd_m = answer.uneven_m;
   r.heights = answer.heights;

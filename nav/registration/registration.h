@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,73 +9,12 @@
 
 #include "base/result.h"
 #include "base/transform.h"
-#include "nav/geometry/closest_grid.h"
-#include "nav/geometry/mesh.h"
-#include "nav/geometry/principal_axes.h"
 #include "nav/registration/findings.h"
 #include "nav/registration/model_error.h"
-#include "nav/registration/pose_search.h"
 #include "nav/registration/tre.h"
+#include "nav/registration/vertebra_model.h"
 
 namespace orthonav::nav {
-
-/// Raise this with every change that prepares the same mesh differently: stored preparations
-/// (engine/case/model_cache.h) are then made again. A test checks it against the figures of a known
-/// bone.
-inline constexpr std::uint32_t kPreparationVersion = 2;
-
-/// The parts of a vertebra's preparation that are slow to compute, as plain numbers that can be
-/// stored.
-struct PreparedParts {
-  std::vector<std::uint32_t> reachable;  ///< faces, ascending
-  std::vector<Vec3> closest_m;           ///< of `reachable_grid`
-  std::vector<float> distance_m;         ///< of `search_field`
-};
-
-/// The preoperative vertebra, prepared once: its mesh (frame Vertebra: LPS axes, metres), the part
-/// a pointer can reach from behind, and their indices. Of any other bone the whole surface counts
-/// as reachable.
-class VertebraModel {
- public:
-  static Result<std::shared_ptr<const VertebraModel>> prepare(TriangleMesh mesh,
-                                                              Bone bone = Bone::kVertebra);
-  /// The same, but faster, from the parts of an earlier preparation of this mesh. Refuses parts of
-  /// another mesh, judged by their counts and a hundred or so samples: enough against mix-ups, not
-  /// against malice. Parts with wrong numbers never cause a crash.
-  static Result<std::shared_ptr<const VertebraModel>> restore(TriangleMesh mesh,
-                                                              PreparedParts parts);
-  [[nodiscard]] PreparedParts parts() const;
-
-  [[nodiscard]] Bone bone() const { return bone_; }
-  [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
-  [[nodiscard]] const SurfaceIndex& surface() const { return surface_; }
-  /// The posterior part: what is left after trimming what a pointer can't reach.
-  [[nodiscard]] const TriangleMesh& reachable() const { return reachable_; }
-  [[nodiscard]] const SurfaceIndex& reachable_surface() const { return reachable_surface_; }
-  /// Its faces in `mesh()`, ascending.
-  [[nodiscard]] const std::vector<std::uint32_t>& reachable_faces() const {
-    return reachable_faces_;
-  }
-  /// Approximate closest points by fast look-up.
-  [[nodiscard]] const ClosestGrid& reachable_grid() const { return reachable_grid_; }
-  /// Principal axes of the reachable surface, by area.
-  [[nodiscard]] const PrincipalAxes& reachable_axes() const { return reachable_axes_; }
-  /// For the search of every pose.
-  [[nodiscard]] const SearchField& search_field() const { return search_field_; }
-
- private:
-  struct Surfaces;
-  VertebraModel(Bone bone, Surfaces surfaces, ClosestGrid grid, SearchField field);
-  Bone bone_;
-  TriangleMesh mesh_;
-  std::vector<std::uint32_t> reachable_faces_;
-  TriangleMesh reachable_;
-  SurfaceIndex surface_;
-  SurfaceIndex reachable_surface_;
-  ClosestGrid reachable_grid_;
-  PrincipalAxes reachable_axes_;
-  SearchField search_field_;
-};
 
 /// Another vertebra of the patient, to which the strokes might belong.
 struct NeighbourLevel {
@@ -130,7 +68,7 @@ struct Registration {
   bool accepted = false;
   std::vector<RefusalReason> reasons;
   /// Refused only because of the error at the screws, which pressing places on the bone can reduce
-  /// (nav/registration/pressed_places.h).
+  /// (nav/registration/presses.h).
   bool provisional = false;
   Transform<World, Vertebra> world_from_vertebra;
   double rmse_m = 0.0;
@@ -185,6 +123,17 @@ struct Registration {
 Result<Registration> register_by_pose_search(const VertebraModel& model,
                                              std::span<const Point<World>> points_in_world,
                                              const PoseSearchRegistrationOptions& options = {});
+
+/// Where the pose must be certain: the targets in the options, or, if there are none, where screws
+/// usually go, or both ends of another bone along each of its principal axes.
+[[nodiscard]] std::vector<Point<Vertebra>> targets_of(const VertebraModel& model,
+                                                      const PoseSearchRegistrationOptions& options);
+
+/// Fills in what a pose's uncertainty means at the targets: without common errors, the expected
+/// errors, the motion behind them and where strokes would help most; and, with common errors, the
+/// total uncertainty.
+void put_errors(const VertebraModel& model, const PoseUncertainty& own, const CommonErrors& common,
+                std::span<const Point<Vertebra>> targets, Registration& r);
 
 /// Refuses points that can't be registered at all: too few, not finite, spread too widely, on a
 /// line.

@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 #include "nav/geometry/mesh.h"
-#include "nav/registration/surface_step.h"
+#include "nav/registration/search.h"
 
 namespace orthonav::test {
 

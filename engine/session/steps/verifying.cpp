@@ -9,8 +9,8 @@
 #include "base/translation.h"
 #include "engine/session/text/wording.h"
 #include "nav/guidance/predicted_error.h"
-#include "nav/registration/press_fit.h"
-#include "nav/registration/unstroked_surface.h"
+#include "nav/registration/check_points.h"
+#include "nav/registration/presses.h"
 
 namespace orthonav::engine {
 namespace {

@@ -7,7 +7,7 @@
 #include "engine/session/log/operation_json.h"
 #include "engine/session/session_state.h"
 #include "engine/session/text/status_line.h"
-#include "nav/registration/pressed_places.h"
+#include "nav/registration/presses.h"
 
 namespace orthonav::engine {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "nav/registration/pose_search.h"
+#include "nav/registration/search.h"
 #include "tests/engine/case/model_files.h"
 
 namespace orthonav::engine::model_cache_test {

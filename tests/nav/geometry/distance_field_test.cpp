@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "base/random.h"
-#include "nav/registration/trimming.h"
+#include "nav/registration/vertebra_model.h"
 #include "tests/support/mesh_builder.h"
 #include "tests/support/slab_bone.h"
 

@@ -3,8 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "nav/registration/press_fit.h"
-#include "nav/registration/pressed_places.h"
+#include "nav/registration/presses.h"
 
 namespace orthonav::nav {
 

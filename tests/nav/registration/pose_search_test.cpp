@@ -1,4 +1,4 @@
-#include "nav/registration/pose_search.h"
+#include "nav/registration/search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "nav/registration/press_fit.h"
+#include "nav/registration/presses.h"
 
 #include <gtest/gtest.h>
 

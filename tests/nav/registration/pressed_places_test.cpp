@@ -1,4 +1,4 @@
-#include "nav/registration/pressed_places.h"
+#include "nav/registration/presses.h"
 
 #include <gmock/gmock.h>
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/random.h"
-#include "nav/registration/shaft_collision.h"
+#include "nav/registration/decision.h"
 #include "tests/nav/registration/register_best.h"
 #include "tests/support/stroke_truths.h"
 
@@ -44,7 +44,11 @@ TEST_F(RegisterBest, RefusesAPoseAtWhichThePointerGoesThroughBone) {
     o.shafts.push_back(full_.world_from_vertebra.rotation() *
                        (on_bone->normal + Vec3{0.0, 1.0, 0.0}).normalized());
   }
-  EXPECT_LT(shaft_collision_fraction(*l4().model, full_.world_from_vertebra, tips, o.shafts), 0.1);
+  const auto through_bone = [&](std::span<const Vec3> shafts) {
+    return posterior::shaft_collision_fraction(posterior::observed(tips, 0.0, shafts), *l4().model,
+                                               full_.world_from_vertebra);
+  };
+  EXPECT_LT(through_bone(o.shafts), 0.1);
   const auto held = register_by_pose_search(*l4().model, tips, o).value();
   EXPECT_TRUE(held.accepted) << held.reasons.size() << " reasons";
   EXPECT_LT(held.shaft_collision_fraction, 0.1);
@@ -56,9 +60,9 @@ TEST_F(RegisterBest, RefusesAPoseAtWhichThePointerGoesThroughBone) {
   EXPECT_FALSE(through.accepted);
   EXPECT_THAT(kinds_of(through), Contains(RefusalReason::Kind::kShaftCollision));
   // Without known shafts, no reason mentions them.
-  EXPECT_EQ(shaft_collision_fraction(*l4().model, full_.world_from_vertebra, tips, {}), 0.0);
+  EXPECT_EQ(through_bone({}), 0.0);
   const std::vector<Vec3> unknown(tips.size());
-  EXPECT_EQ(shaft_collision_fraction(*l4().model, full_.world_from_vertebra, tips, unknown), 0.0);
+  EXPECT_EQ(through_bone(unknown), 0.0);
 }
 
 TEST_F(RegisterBest, NamesTheLevelThatWasStrokedInstead) {

@@ -6,7 +6,7 @@
 #include "nav/geometry/closest_grid.h"
 #include "nav/geometry/principal_axes.h"
 #include "nav/geometry/triangle.h"
-#include "nav/registration/trimming.h"
+#include "nav/registration/vertebra_model.h"
 #include "tests/support/mesh_builder.h"
 #include "tests/support/registration_builder.h"
 

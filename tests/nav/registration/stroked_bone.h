@@ -9,7 +9,7 @@
 #include "base/random.h"
 #include "engine/phantom/phantom.h"
 #include "nav/guidance/predicted_error.h"
-#include "nav/registration/pressed_places.h"
+#include "nav/registration/presses.h"
 #include "tests/support/stroke_truths.h"
 
 namespace orthonav::nav {

@@ -1,4 +1,4 @@
-#include "nav/registration/surface_fit.h"
+#include "nav/registration/search.h"
 
 #include <gtest/gtest.h>
 

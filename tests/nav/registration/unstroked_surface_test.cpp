@@ -1,4 +1,4 @@
-#include "nav/registration/unstroked_surface.h"
+#include "nav/registration/check_points.h"
 
 #include <gtest/gtest.h>
 

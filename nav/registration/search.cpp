@@ -1,0 +1,754 @@
+#include "nav/registration/search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <Eigen/Dense>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace orthonav::nav {
+namespace {
+
+// ---------------------------------------------------------------------------------------------
+// A few points that stand for all.
+
+constexpr double kSpreadCell_m = 0.004;
+/// At most this fraction of the points is left out for lying in sparse cells.
+constexpr double kLonelyFraction = 0.15;
+
+/// The median of each coordinate, which outliers hardly move.
+Vec3 middle_of(std::span<const Vec3> points_m) {
+  Vec3 middle;
+  std::vector<double> values(points_m.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < points_m.size(); ++i) {
+      values[i] = points_m[i][axis];
+    }
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), at, values.end());
+    middle[axis] = *at;
+  }
+  return middle;
+}
+
+/// Each next point is the one farthest from all before it.
+void order_by_distance(std::vector<Vec3>& points_m, std::size_t count) {
+  std::vector<double> distance2(points_m.size(), 1e9);
+  for (std::size_t i = 0; i < std::min(count, points_m.size()); ++i) {
+    std::size_t farthest = i;
+    for (std::size_t k = i; k < points_m.size(); ++k) {
+      if (distance2[k] > distance2[farthest]) {
+        farthest = k;
+      }
+    }
+    std::swap(points_m[i], points_m[farthest]);
+    std::swap(distance2[i], distance2[farthest]);
+    for (std::size_t k = i + 1; k < points_m.size(); ++k) {
+      distance2[k] = std::min(distance2[k], (points_m[k] - points_m[i]).squared_norm());
+    }
+  }
+}
+
+struct Cell {
+  Vec3 point;  ///< the first one in the cell
+  std::size_t count = 0;
+};
+
+/// One point per cell within `reach_m` of the middle, in the order of the cells' places.
+std::vector<Cell> cells_around(Vec3 middle, std::span<const Vec3> points_m, double reach_m) {
+  std::map<std::array<long, 3>, Cell> by_place;
+  for (const Vec3& p : points_m) {
+    const Vec3 q = p - middle;
+    if (!(q.norm() < reach_m)) {
+      continue;
+    }
+    const auto place = [](double v) { return std::lround(v / kSpreadCell_m); };
+    ++by_place.try_emplace({place(q.x), place(q.y), place(q.z)}, Cell{q}).first->second.count;
+  }
+  std::vector<Cell> cells;
+  for (const auto& [place, cell] : by_place) {
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+/// Drops sparse cells: outliers are few but far apart, so each would get a cell of its own.
+void drop_isolated_cells(std::vector<Cell>& cells) {
+  std::size_t all = 0;
+  for (const Cell& cell : cells) {
+    all += cell.count;
+  }
+  std::stable_sort(cells.begin(), cells.end(),
+                   [](const Cell& a, const Cell& b) { return a.count > b.count; });
+  auto droppable = static_cast<std::size_t>(kLonelyFraction * static_cast<double>(all));
+  while (cells.size() > 6 && cells.back().count <= droppable &&
+         2 * cells.back().count < cells[cells.size() / 2].count) {
+    droppable -= cells.back().count;
+    cells.pop_back();
+  }
+}
+
+/// The points of a cloud about their centre, ordered such that the first n, for any n, are spread
+/// evenly over it, no matter how often a place was stroked.
+class SpreadPoints {
+ public:
+  /// Leaves out points farther than `reach_m` from the middle.
+  SpreadPoints(std::span<const Vec3> points_m, double reach_m);
+
+  [[nodiscard]] Vec3 centre_m() const { return centre_m_; }
+  [[nodiscard]] std::span<const Vec3> centred_m() const { return points_m_; }
+  [[nodiscard]] std::span<const Vec3> first(std::size_t count) const {
+    return std::span<const Vec3>(points_m_).first(std::min(count, points_m_.size()));
+  }
+
+ private:
+  Vec3 centre_m_;
+  std::vector<Vec3> points_m_;
+};
+
+SpreadPoints::SpreadPoints(std::span<const Vec3> points_m, double reach_m) {
+  if (points_m.empty()) {
+    return;
+  }
+  const Vec3 middle = middle_of(points_m);
+  std::vector<Cell> cells = cells_around(middle, points_m, reach_m);
+  drop_isolated_cells(cells);
+  Vec3 mean;
+  for (const Cell& cell : cells) {
+    mean += cell.point / static_cast<double>(cells.size());
+  }
+  centre_m_ = middle + mean;
+  for (const Cell& cell : cells) {
+    if ((cell.point - mean).norm() < reach_m) {
+      points_m_.push_back(cell.point - mean);
+    }
+  }
+  constexpr std::size_t kOrdered = 150;
+  order_by_distance(points_m_, kOrdered);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Steps of a pose in the distance field.
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// The longest step.
+constexpr double kLongestStep_m = 0.008;
+constexpr double kWidest_rad = 0.3;
+/// Damping relative to the trace: keeps directions that nothing constrains from running away.
+constexpr double kDamping = 1e-4;
+
+/// The normal equations of a step, one point at a time. Sums of the lower triangle by rows, then of
+/// the right-hand side: plain arrays, since most of the search's time is spent here.
+struct StepSums {
+  std::array<double, 27> sums{};
+  int used = 0;
+
+  void add(Vec3 lever_arm, Vec3 gradient, double residual_m, double weight) {
+    const Vec3 by_rotation = lever_arm.cross(gradient);
+    const std::array<double, 6> j = {gradient.x,    gradient.y,    gradient.z,
+                                     by_rotation.x, by_rotation.y, by_rotation.z};
+    std::size_t k = 0;
+    for (std::size_t row = 0; row < 6; ++row) {
+      const double weighted = weight * j[row];
+      for (std::size_t column = 0; column <= row; ++column) {
+        sums[k++] += weighted * j[column];
+      }
+      sums[21 + row] -= weighted * residual_m;
+    }
+    ++used;
+  }
+};
+
+/// (translation, rotation vector); not finite where the points do not determine it.
+Vector6 damped_step(const StepSums& of) {
+  Matrix6 normal;
+  Vector6 right;
+  std::size_t k = 0;
+  for (Eigen::Index row = 0; row < 6; ++row) {
+    for (Eigen::Index column = 0; column <= row; ++column) {
+      normal(row, column) = normal(column, row) = of.sums[k++];
+    }
+    right(row) = of.sums[21 + static_cast<std::size_t>(row)];
+  }
+  const double translation_damping = kDamping * normal.topLeftCorner<3, 3>().trace();
+  const double rotation_damping = kDamping * normal.bottomRightCorner<3, 3>().trace();
+  for (int i = 0; i < 6; ++i) {
+    normal(i, i) += i < 3 ? translation_damping : rotation_damping;
+  }
+  return normal.ldlt().solve(right);
+}
+
+/// Moves the pose by a step, or by as much of it as is allowed at once.
+void move_by(const Vector6& step, CentredPose& pose) {
+  const double scale = std::min({1.0, kLongestStep_m / std::max(step.head<3>().norm(), 1e-12),
+                                 kWidest_rad / std::max(step.tail<3>().norm(), 1e-12)});
+  const Vec3 rotation{step(3), step(4), step(5)};
+  pose.rotation = orthonormalized(rotation_from_vector(scale * rotation) * pose.rotation);
+  pose.centre_m += scale * Vec3{step(0), step(1), step(2)};
+}
+
+/// Robust Gauss-Newton steps of a pose in a distance field (weights by Tukey's biweight).
+class FieldStep {
+ public:
+  FieldStep(const DistanceField& field, double tip_radius_m)
+      : field_(&field), tip_radius_m_(tip_radius_m) {}
+  /// False when the points within `width_m` leave the pose undetermined.
+  bool improve(std::span<const Vec3> centred_m, double width_m, CentredPose& pose) const;
+  /// Mean of the squared distances, truncated at `width_m`.
+  [[nodiscard]] double cost_m2(std::span<const Vec3> centred_m, double width_m,
+                               const CentredPose& pose) const;
+
+ private:
+  const DistanceField* field_;
+  double tip_radius_m_;
+};
+
+bool FieldStep::improve(std::span<const Vec3> centred_m, double width_m, CentredPose& pose) const {
+  StepSums sums;
+  const double inverse_width2 = 1.0 / (width_m * width_m);
+  for (const Vec3& p : centred_m) {
+    const Vec3 lever_arm = pose.rotation * p;
+    DistanceField::Value value;
+    if (!field_->at(lever_arm + pose.centre_m, value)) {
+      continue;
+    }
+    const double r = value.distance_m - tip_radius_m_;
+    const double t = 1.0 - r * r * inverse_width2;
+    if (!(t > 0.0)) {
+      continue;
+    }
+    sums.add(lever_arm, value.gradient, r, t * t);
+  }
+  if (sums.used < 6) {
+    return false;
+  }
+  const Vector6 step = damped_step(sums);
+  if (!step.allFinite()) {
+    return false;
+  }
+  move_by(step, pose);
+  return true;
+}
+
+double FieldStep::cost_m2(std::span<const Vec3> centred_m, double width_m,
+                          const CentredPose& pose) const {
+  double sum = 0.0;
+  for (const Vec3& p : centred_m) {
+    DistanceField::Value value;
+    const double r = field_->at(pose.rotation * p + pose.centre_m, value)
+                         ? std::min(std::abs(value.distance_m - tip_radius_m_), width_m)
+                         : width_m;
+    sum += r * r;
+  }
+  return sum / static_cast<double>(std::max<std::size_t>(1, centred_m.size()));
+}
+
+// ---------------------------------------------------------------------------------------------
+// Every pose.
+
+constexpr int kRotations = 1000;
+constexpr int kPlaceStep = SearchField::Cells::kApart;
+/// Centres of strokes lie inside the box of the reachable surface, at least this far from its rim.
+constexpr double kInset_m = 0.006;
+constexpr std::size_t kPointsAdded = 32;
+constexpr std::size_t kPointsFirst = 48;
+constexpr std::size_t kPointsThen = 120;
+constexpr std::size_t kPointsLast = 300;
+constexpr std::size_t kKeptFirst = 500;
+constexpr std::size_t kKeptThen = 100;
+constexpr std::size_t kKeptLast = 20;
+
+/// Rotations spread evenly over all orientations.
+std::vector<Mat3> all_rotations() {
+  constexpr double kPsi = 1.533751168755204288118041;
+  std::vector<Mat3> rotations;
+  rotations.reserve(kRotations);
+  for (int i = 0; i < kRotations; ++i) {
+    const double s = i + 0.5;
+    const double r = std::sqrt(s / kRotations);
+    const double q = std::sqrt(1.0 - s / kRotations);
+    const double alpha = 2.0 * std::numbers::pi * s / std::numbers::sqrt2;
+    const double beta = 2.0 * std::numbers::pi * s / kPsi;
+    rotations.push_back(rotation_from_quaternion(
+        {r * std::sin(alpha), r * std::cos(alpha), q * std::sin(beta), q * std::cos(beta)}));
+  }
+  return rotations;
+}
+
+struct Scored {
+  CentredPose pose;
+  double cost = 0.0;
+};
+
+bool is_better(const Scored& a, const Scored& b) { return a.cost < b.cost; }
+
+/// Adds up the coarse costs of every place for one rotation.
+class PlaceScan {
+ public:
+  PlaceScan(const SearchField& vertebra, std::span<const Vec3> centred_m)
+      : cells_(vertebra.cells()), points_m_(centred_m), offsets_(centred_m.size()) {
+    const Vec3 inset{kInset_m, kInset_m, kInset_m};
+    low_m_ = vertebra.reachable_bounds().low + inset;
+    const Vec3 extent = vertebra.reachable_bounds().high - inset - low_m_;
+    for (std::size_t k = 0; k < 3; ++k) {
+      steps_[k] = std::max(
+          1, 1 + static_cast<int>(extent[static_cast<int>(k)] / (kPlaceStep * cells_.cell_m)));
+    }
+  }
+
+  /// Finds the two best places that are not neighbours.
+  void scan(const Mat3& rotation, std::vector<Scored>& out) {
+    for (std::size_t i = 0; i < points_m_.size(); ++i) {
+      const Vec3 p = (rotation * points_m_[i] + low_m_ - cells_.low_m) / cells_.cell_m;
+      offsets_[i] =
+          cells_.index(static_cast<int>(p.x), static_cast<int>(p.y), static_cast<int>(p.z));
+    }
+    std::array<Place, 2> best;
+    for (int z = 0; z < steps_[2]; ++z) {
+      for (int y = 0; y < steps_[1]; ++y) {
+        for (int x = 0; x < steps_[0]; x += kRun) {
+          const std::array<std::uint16_t, kRun> costs = costs_from(x, y, z);
+          for (int i = 0; i < std::min(kRun, steps_[0] - x); ++i) {
+            take({costs[static_cast<std::size_t>(i)], {x + i, y, z}}, best);
+          }
+        }
+      }
+    }
+    for (const Place& place : best) {
+      if (place.cost == kNone) {
+        continue;
+      }
+      const Vec3 at_m =
+          low_m_ + kPlaceStep * cells_.cell_m *
+                       Vec3{static_cast<double>(place.at[0]), static_cast<double>(place.at[1]),
+                            static_cast<double>(place.at[2])};
+      out.push_back({{rotation, at_m}, static_cast<double>(place.cost)});
+    }
+  }
+
+ private:
+  static constexpr int kRun = SearchField::Cells::kRun;
+  static_assert(kPointsAdded * std::numeric_limits<std::uint8_t>::max() <=
+                std::numeric_limits<std::uint16_t>::max());
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  struct Place {
+    std::uint32_t cost = kNone;
+    std::array<int, 3> at{};
+    [[nodiscard]] bool is_next_to(const Place& other) const {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (std::abs(at[k] - other.at[k]) > 1) {
+          return false;
+        }
+      }
+      return true;
+    }
+  };
+
+  /// The costs of kRun neighbouring places along x; entries past the last place are meaningless.
+  [[nodiscard]] std::array<std::uint16_t, kRun> costs_from(int x, int y, int z) const {
+    const std::uint8_t* const from =
+        cells_.cost.data() + kPlaceStep * (z * cells_.slice() + y * cells_.row()) + x;
+    std::array<std::uint16_t, kRun> sums{};
+    for (const std::ptrdiff_t offset : offsets_) {
+      const std::uint8_t* const run = from + offset;
+      for (std::size_t i = 0; i < kRun; ++i) {
+        sums[i] = static_cast<std::uint16_t>(sums[i] + run[i]);
+      }
+    }
+    return sums;
+  }
+
+  static void take(const Place& place, std::array<Place, 2>& best) {
+    if (place.cost >= best[1].cost) {
+      return;
+    }
+    if (place.cost < best[0].cost) {
+      if (best[0].cost != kNone && !place.is_next_to(best[0])) {
+        best[1] = best[0];
+      }
+      best[0] = place;
+    } else if (!place.is_next_to(best[0])) {
+      best[1] = place;
+    }
+  }
+
+  const SearchField::Cells& cells_;
+  std::span<const Vec3> points_m_;
+  std::vector<std::ptrdiff_t> offsets_;
+  Vec3 low_m_;
+  std::array<int, 3> steps_{};
+};
+
+void keep_best(std::vector<Scored>& poses, std::size_t count) {
+  if (poses.size() > count) {
+    std::nth_element(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(count), poses.end(),
+                     is_better);
+    poses.resize(count);
+  }
+  std::stable_sort(poses.begin(), poses.end(), is_better);
+}
+
+/// Drops poses next to a better one; `poses` is sorted.
+void drop_neighbours(std::vector<Scored>& poses, double same_m, double same_rad,
+                     std::size_t count) {
+  std::vector<Scored> kept;
+  for (const Scored& pose : poses) {
+    const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const Scored& k) {
+      return (k.pose.centre_m - pose.pose.centre_m).norm() < same_m &&
+             rotation_angle_rad(k.pose.rotation, pose.pose.rotation) < same_rad;
+    });
+    if (is_new) {
+      kept.push_back(pose);
+    }
+    if (kept.size() == count) {
+      break;
+    }
+  }
+  poses = std::move(kept);
+}
+
+struct Stage {
+  int steps = 0;
+  double from_width_m = 0.0;  ///< of the robust weight
+  double to_width_m = 0.0;
+};
+
+void refine(const SearchField& vertebra, std::span<const Vec3> points_m, const Stage& stage,
+            double tip_radius_m, Scored& scored) {
+  FieldStep step(vertebra.field(), tip_radius_m);
+  for (int i = 0; i < stage.steps; ++i) {
+    const double fraction = stage.steps > 1 ? static_cast<double>(i) / (stage.steps - 1) : 1.0;
+    const double width_m =
+        stage.from_width_m * std::pow(stage.to_width_m / stage.from_width_m, fraction);
+    if (!step.improve(points_m, width_m, scored.pose)) {
+      break;
+    }
+  }
+  scored.cost = step.cost_m2(points_m, stage.to_width_m, scored.pose);
+}
+
+}  // namespace
+
+Transform<World, Vertebra> world_from(const CentredPose& pose, Vec3 points_centre_m) {
+  const Mat3 back = pose.rotation.transposed();
+  return {back, points_centre_m - back * pose.centre_m};
+}
+
+CentredPose centred(const Transform<World, Vertebra>& pose, Vec3 points_centre_m) {
+  const Transform<Vertebra, World> inverse = pose.inverse();
+  return {inverse.rotation(), (inverse * Point<World>{points_centre_m}).v};
+}
+
+std::vector<FoundPose> search_poses(const SearchField& vertebra,
+                                    std::span<const Vec3> points_in_world_m,
+                                    const PoseSearchOptions& options) {
+  const SpreadPoints spread(points_in_world_m, SearchField::kReach_m);
+  if (spread.centred_m().size() < 6) {
+    return {};
+  }
+  std::vector<Scored> poses;
+  poses.reserve(2 * kRotations);
+  {
+    PlaceScan places(vertebra, spread.first(kPointsAdded));
+    for (const Mat3& rotation : all_rotations()) {
+      places.scan(rotation, poses);
+    }
+  }
+  keep_best(poses, kKeptFirst);
+  for (Scored& pose : poses) {
+    refine(vertebra, spread.first(kPointsFirst), {4, 0.012, 0.006}, options.tip_radius_m, pose);
+  }
+  keep_best(poses, kKeptThen);
+  for (Scored& pose : poses) {
+    refine(vertebra, spread.first(kPointsThen), {6, 0.008, 0.004}, options.tip_radius_m, pose);
+  }
+  keep_best(poses, kKeptThen);
+  drop_neighbours(poses, options.same_m, options.same_rad, kKeptLast);
+  for (Scored& pose : poses) {
+    refine(vertebra, spread.first(kPointsLast), {8, 0.005, 0.003}, options.tip_radius_m, pose);
+  }
+  keep_best(poses, kKeptLast);
+  drop_neighbours(poses, options.same_m, options.same_rad, options.most);
+  std::vector<FoundPose> found;
+  for (const Scored& pose : poses) {
+    found.push_back({world_from(pose.pose, spread.centre_m()), pose.cost});
+  }
+  return found;
+}
+
+namespace {
+
+// ---------------------------------------------------------------------------------------------
+// On the surface itself.
+
+/// Pose and standoff.
+using Matrix7 = Eigen::Matrix<double, 7, 7>;
+using Vector7 = Eigen::Matrix<double, 7, 1>;
+
+/// Tukey's biweight, 87 % efficient at this many SDs.
+constexpr double kTukeySd = 3.6;
+/// SD from the median of absolute values, for a normal distribution.
+constexpr double kSdByMedian = 1.4826;
+constexpr double kRelativeDamping = 1e-9;
+constexpr double kNowhere_m = 1e3;
+/// Allowance for rounding, so that a place at exactly the same distance is found.
+constexpr double kRoundingAllowance = 1.0 + 1e-12;
+
+void measure(const SurfaceIndex& surface, std::span<const Vec3> points_m, double farthest_m,
+             double tip_radius_m, SurfaceFit& fit) {
+  const double height_m = tip_radius_m + fit.standoff_m;
+  for (std::size_t i = 0; i < points_m.size(); ++i) {
+    FittedPoint& out = fit.points[i];
+    out.lever_arm_m = fit.pose.rotation * points_m[i];
+    const Vec3 query = out.lever_arm_m + fit.pose.centre_m;
+    // The nearest place is no farther than the previous nearest one.
+    const double within_m =
+        std::min(farthest_m, (query - out.nearest_m).norm() * kRoundingAllowance);
+    const auto near = surface.nearest(query, within_m);
+    if (!near) {
+      out.residual_m = farthest_m;
+      out.gradient = {};
+      out.nearest_m = {kNowhere_m, 0.0, 0.0};
+      continue;
+    }
+    out.nearest_m = near->point_m;
+    const Vec3 off = query - near->point_m;
+    const double side = off.dot(near->normal) < 0.0 ? -1.0 : 1.0;
+    out.residual_m = side * near->distance_m - height_m;
+    // On the surface itself, only the face gives a direction.
+    out.gradient = near->distance_m > 1e-7 ? (side / near->distance_m) * off : near->normal;
+  }
+}
+
+double spread_m(const SurfaceFit& fit, std::vector<double>& scratch) {
+  scratch.clear();
+  for (const FittedPoint& p : fit.points) {
+    scratch.push_back(std::abs(p.residual_m));
+  }
+  const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
+  std::nth_element(scratch.begin(), middle, scratch.end());
+  return kSdByMedian * *middle;
+}
+
+void weigh(SurfaceFit& fit) {
+  for (FittedPoint& p : fit.points) {
+    const double z = p.residual_m / (kTukeySd * fit.noise_m);
+    const double t = std::max(0.0, 1.0 - z * z);
+    p.weight = t * t;
+  }
+}
+
+/// The length of the step, or nothing when the pose is undetermined.
+std::optional<double> step(SurfaceFit& fit) {
+  Matrix7 normal = Matrix7::Zero();
+  Vector7 right = Vector7::Zero();
+  for (const FittedPoint& p : fit.points) {
+    if (!(p.weight > 0.0)) {
+      continue;
+    }
+    const Vec3 by_rotation = p.lever_arm_m.cross(p.gradient);
+    Vector7 j;
+    j << p.gradient.x, p.gradient.y, p.gradient.z, by_rotation.x, by_rotation.y, by_rotation.z,
+        -1.0;
+    normal.selfadjointView<Eigen::Lower>().rankUpdate(j, p.weight);
+    right -= p.weight * p.residual_m * j;
+  }
+  const double translation_damping = kRelativeDamping * normal.topLeftCorner<3, 3>().trace();
+  const double rotation_damping = kRelativeDamping * normal.block<3, 3>(3, 3).trace();
+  for (int k = 0; k < 6; ++k) {
+    normal(k, k) += k < 3 ? translation_damping : rotation_damping;
+  }
+  if (!fit.with_standoff) {
+    normal.row(6).setZero();
+    normal(6, 6) = 1.0;
+    right(6) = 0.0;
+  }
+  const Eigen::LDLT<Matrix7> solver(normal.selfadjointView<Eigen::Lower>());
+  const Vector7 x = solver.solve(right);
+  if (solver.info() != Eigen::Success || !x.allFinite() || !(normal.trace() > 1.0)) {
+    return std::nullopt;
+  }
+  constexpr double kLongest_m = 0.005;
+  constexpr double kLever_m = 0.03;
+  const double length = x.head<3>().norm() + kLever_m * x.segment<3>(3).norm() + std::abs(x(6));
+  const double scale = std::min(1.0, kLongest_m / std::max(length, 1e-12));
+  fit.pose.rotation =
+      orthonormalized(rotation_from_vector(scale * Vec3{x(3), x(4), x(5)}) * fit.pose.rotation);
+  fit.pose.centre_m += scale * Vec3{x(0), x(1), x(2)};
+  fit.standoff_m += scale * x(6);
+  return length;
+}
+
+}  // namespace
+
+std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
+                                         std::span<const Vec3> points_m, const CentredPose& start,
+                                         const SurfaceFitOptions& options) {
+  if (points_m.size() < 6) {
+    return std::nullopt;
+  }
+  SurfaceFit fit;
+  fit.pose = start;
+  fit.with_standoff = options.with_standoff;
+  fit.standoff_m = options.first_standoff_m;
+  fit.points.assign(points_m.size(), {{}, {}, {kNowhere_m, 0.0, 0.0}, 0.0, 0.0});
+  for (std::size_t i = 0; i < std::min(options.near_m.size(), points_m.size()); ++i) {
+    fit.points[i].nearest_m = options.near_m[i];
+  }
+  std::vector<double> scratch;
+  for (bool last = false;; ++fit.iterations) {
+    measure(surface, points_m, options.farthest_m, options.tip_radius_m, fit);
+    fit.noise_m = std::clamp(spread_m(fit, scratch), options.least_noise_m, options.most_noise_m);
+    weigh(fit);
+    if (last || fit.iterations == options.max_iterations) {
+      return fit;
+    }
+    const auto length = step(fit);
+    if (!length) {
+      return std::nullopt;
+    }
+    last = *length < options.last_step_m;
+  }
+}
+
+double truncated_cost_m2(const SurfaceFit& fit, double width_m) {
+  double sum = 0.0;
+  for (const FittedPoint& p : fit.points) {
+    const double r = std::min(std::abs(p.residual_m), width_m);
+    sum += r * r;
+  }
+  return sum / static_cast<double>(fit.points.size());
+}
+
+namespace {
+
+// ---------------------------------------------------------------------------------------------
+// What could explain the points.
+
+/// Enough points to tell candidates apart.
+constexpr std::size_t kPointsToCompare = 300;
+constexpr double kFieldNoise_m = 0.0005;
+/// The field is accurate to tenths of a millimetre: a pose whose cost in the field is this many
+/// times the best one's is not a rival.
+constexpr double kFarFromBestInField = 3.0;
+/// Squared distances are truncated at this many SDs of the noise, but not below that distance.
+constexpr double kTruncateSd = 3.0;
+constexpr double kTruncateLeast_m = 0.0009;
+/// Points that scatter by more than this, more than tracking explains, were stroked with a light
+/// hand or over soft tissue. Their mean height above the bone is then fitted as well, in the bone
+/// never.
+constexpr double kLooseHand_m = 0.0005;
+constexpr double kHighest_m = 0.004;
+
+SurfaceFitOptions quick_fit(double tip_radius_m) {
+  SurfaceFitOptions options;
+  options.tip_radius_m = tip_radius_m;
+  options.max_iterations = 6;
+  options.last_step_m = 2e-5;
+  return options;
+}
+
+double least_noise_m(std::span<const Candidate> candidates) {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const Candidate& c : candidates) {
+    least_m = std::min(least_m, c.fit.noise_m);
+  }
+  return least_m;
+}
+
+/// Fits the candidates again with the mean height of the tip above the bone unknown.
+void refit_with_standoff(const VertebraModel& model, const Cloud& cloud, SurfaceFitOptions options,
+                         std::span<Candidate> candidates) {
+  options.with_standoff = true;
+  for (Candidate& c : candidates) {
+    if (auto fit = fit_to_surface(model.reachable_surface(), cloud.few_m, c.fit.pose, options);
+        fit && fit->standoff_m > 0.0 && fit->standoff_m < kHighest_m) {
+      c.fit = std::move(*fit);
+    }
+  }
+}
+
+/// The poses found in the field, fitted, in the order found.
+std::vector<Candidate> fitted_poses(const VertebraModel& model, const Cloud& cloud,
+                                    std::span<const Point<Vertebra>> targets,
+                                    const SurfaceFitOptions& options) {
+  PoseSearchOptions search;
+  search.tip_radius_m = options.tip_radius_m;
+  const auto poses = search_poses(model.search_field(), cloud.in_world_m, search);
+  std::vector<Candidate> found;
+  bool rivals = false;
+  for (const FoundPose& pose : poses) {
+    const double least_cost_m2 = std::max(poses[0].cost_m2, kFieldNoise_m * kFieldNoise_m);
+    if (rivals && pose.cost_m2 > kFarFromBestInField * least_cost_m2) {
+      break;
+    }
+    rivals =
+        rivals || targets.empty() ||
+        apart_m(pose.world_from_vertebra, poses[0].world_from_vertebra, targets) > kSameAtTargets_m;
+    const CentredPose start = centred(pose.world_from_vertebra, cloud.centre_m);
+    if (auto fit = fit_to_bone(model, cloud.few_m, start, options)) {
+      found.push_back({std::move(*fit), 0.0});
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+Cloud cloud_of(std::span<const Point<World>> points) {
+  Cloud cloud;
+  for (const Point<World>& p : points) {
+    cloud.in_world_m.push_back(p.v);
+  }
+  cloud.centre_m = SpreadPoints(cloud.in_world_m, SearchField::kReach_m).centre_m();
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kPointsToCompare);
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    cloud.few_m.push_back(points[i].v - cloud.centre_m);
+  }
+  return cloud;
+}
+
+double apart_m(const Transform<World, Vertebra>& a, const Transform<World, Vertebra>& b,
+               std::span<const Point<Vertebra>> targets) {
+  double most = 0.0;
+  for (const Point<Vertebra>& target : targets) {
+    most = std::max(most, (a * target - b * target).norm());
+  }
+  return most;
+}
+
+std::optional<SurfaceFit> fit_to_bone(const VertebraModel& model, std::span<const Vec3> points_m,
+                                      const CentredPose& start, SurfaceFitOptions options) {
+  std::vector<Vec3> near_m;
+  near_m.reserve(points_m.size());
+  for (const Vec3& p : points_m) {
+    near_m.push_back(model.reachable_grid().nearest(start.rotation * p + start.centre_m));
+  }
+  options.near_m = near_m;
+  return fit_to_surface(model.reachable_surface(), points_m, start, options);
+}
+
+std::vector<Candidate> find_candidates(const VertebraModel& model, const Cloud& cloud,
+                                       std::span<const Point<Vertebra>> targets,
+                                       double tip_radius_m) {
+  const SurfaceFitOptions options = quick_fit(tip_radius_m);
+  std::vector<Candidate> found = fitted_poses(model, cloud, targets, options);
+  if (least_noise_m(found) > kLooseHand_m) {
+    refit_with_standoff(model, cloud, options, found);
+  }
+  const double width_m = std::max(kTruncateSd * least_noise_m(found), kTruncateLeast_m);
+  for (Candidate& c : found) {
+    c.cost_m2 = truncated_cost_m2(c.fit, width_m);
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.cost_m2 < b.cost_m2; });
+  return found;
+}
+
+}  // namespace orthonav::nav
