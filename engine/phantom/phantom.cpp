@@ -4,6 +4,7 @@
 #include <cmath>
 #include <future>
 #include <map>
+#include <utility>
 
 #include "base/check.h"
 #include "base/mutex.h"
@@ -17,6 +18,44 @@ namespace {
 
 constexpr double kGridStep_m = 0.0014;
 constexpr const char* kReferenceLevel = "L3";
+
+/// A shape's values, each with the bars alone that matter in a cell around the point.
+class CellwiseValues {
+ public:
+  explicit CellwiseValues(const VertebraShape& shape) : shape_(&shape), low_m_(shape.low_m()) {
+    const Vec3 extent_m = shape.high_m() - low_m_;
+    std::size_t cells = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      size_[axis] = std::ceil(extent_m[axis] / kCell_m) + 1.0;
+      cells *= static_cast<std::size_t>(size_[axis]);
+    }
+    bars_.resize(cells);
+  }
+  double operator()(Vec3 p) {
+    Vec3 cell = (p - low_m_) / kCell_m;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(cell[axis] >= 0.0 && cell[axis] < size_[axis])) {
+        return shape_->value(p);
+      }
+      cell[axis] = std::floor(cell[axis]);
+    }
+    VertebraShape::Bars& bars =
+        bars_[static_cast<std::size_t>((cell.z * size_.y + cell.y) * size_.x + cell.x)];
+    if (bars == 0) {  // asked for the first time
+      bars = shape_->bars_near(low_m_ + kCell_m * (cell + Vec3{0.5, 0.5, 0.5}),
+                               0.5 * std::sqrt(3.0) * kCell_m);
+    }
+    return shape_->value(p, bars);
+  }
+
+ private:
+  static constexpr double kCell_m = 0.002;
+
+  const VertebraShape* shape_;
+  Vec3 low_m_;
+  Vec3 size_;  ///< in cells, whole numbers
+  std::vector<VertebraShape::Bars> bars_;
+};
 
 /// The screw along the axis of a pedicle, entering where that axis meets the bone from behind.
 nav::ScrewPlan screw_along(const nav::Axis<Vertebra>& axis, nav::Side side,
@@ -35,8 +74,7 @@ CaseLevel made(const VertebraMorphometry& morphometry, const PhantomParameters& 
   const VertebraShape shape(morphometry);
   CaseLevel level;
   level.label = morphometry.label;
-  level.mesh = nav::surface_of([&shape](Vec3 p) { return shape.value(p); }, shape.low_m(),
-                               shape.high_m(), kGridStep_m);
+  level.mesh = nav::surface_of(CellwiseValues(shape), shape.low_m(), shape.high_m(), kGridStep_m);
   const nav::SurfaceIndex bone(level.mesh);
   for (const nav::Side side : {nav::Side::kLeft, nav::Side::kRight}) {
     level.screws.push_back(screw_along(shape.pedicle_axis(side), side, bone, parameters));
@@ -81,13 +119,25 @@ std::vector<Transform<Spine, Vertebra>> places(const std::vector<VertebraMorphom
   return spine_from_vertebra;
 }
 
-}  // namespace
-
-Case phantom(const std::vector<std::string>& labels) {
-  const Result<PhantomParameters> read =
+PhantomParameters built_in_parameters() {
+  Result<PhantomParameters> read =
       phantom_parameters(embedded::phantom_json(), "data/phantom.json");
   ORTHONAV_CHECK(read.ok());
-  const PhantomParameters& parameters = *read;
+  return std::move(*read);
+}
+
+}  // namespace
+
+std::vector<std::string> phantom_labels() {
+  std::vector<std::string> labels;
+  for (const VertebraMorphometry& level : built_in_parameters().levels) {
+    labels.push_back(level.label);
+  }
+  return labels;
+}
+
+Case phantom(const std::vector<std::string>& labels) {
+  const PhantomParameters parameters = built_in_parameters();
   const std::vector<Transform<Spine, Vertebra>> place = places(parameters.levels);
   // Each level is made once.
   static Mutex mutex;

@@ -14,4 +14,7 @@ namespace orthonav::engine {
 /// means all five.
 [[nodiscard]] Case phantom(const std::vector<std::string>& labels = {});
 
+/// The labels of its levels, from the top down; nothing is generated.
+[[nodiscard]] std::vector<std::string> phantom_labels();
+
 }  // namespace orthonav::engine
