@@ -108,8 +108,8 @@ TEST(GoldenCommand, ReviewFindsApprovedScenesAlikeAndChangedOnesNot) {
 TEST(GoldenCommand, ReviewNamesOrphans) {
   const ScratchFolder folder;
   ASSERT_FALSE(folder.with("old.labels.png", "x").empty());
-  const Called called = orthonav({"golden", "review", "--out", folder.file("a.html"), "--dir",
-                                  std::filesystem::path(folder.file("x")).parent_path().string()});
+  const Called called = orthonav(
+      {"golden", "review", "h5_red", "--out", folder.file("a.html"), "--dir", folder.file(".")});
   EXPECT_EQ(called.code, 1);
   EXPECT_THAT(called.out, HasSubstr("old.labels.png belongs to no scene"));
 }

@@ -86,9 +86,8 @@ int review(const GoldenOptions& options) {
   }
   engine::GoldenPainter painter(options.device);
   std::vector<engine::GoldenVerdict> verdicts;
-  const std::vector<std::string> orphans = options.scenes.empty()
-                                               ? engine::orphaned_goldens(options.folder, *scenes)
-                                               : std::vector<std::string>{};
+  const std::vector<std::string> orphans =
+      engine::orphaned_goldens(options.folder, engine::golden_scenes());
   bool alike = orphans.empty();
   for (const std::string& orphan : orphans) {
     std::printf("%s belongs to no scene\n", orphan.c_str());
