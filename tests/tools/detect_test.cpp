@@ -17,6 +17,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Le;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 using Corners = std::array<std::array<double, 2>, 4>;
@@ -49,24 +50,30 @@ std::vector<int> ids_of(const nlohmann::json& image) {
 // `more` tags may be found that are not listed.
 void expect_as_listed(const std::string& folder, std::size_t more) {
   std::istringstream lines(content_of(folder + "/detections_36h11.tsv"));
-  int images = 0;
-  for (std::string line; std::getline(lines, line); ++images) {
-    const std::string name = line.substr(0, line.find('\t'));
-    std::istringstream listed(line.substr(line.find("ids=") + 4));
-    std::vector<int> expected;
-    for (std::string id; listed >> id;) {
-      expected.push_back(std::stoi(id));
+  std::vector<std::string> files;
+  std::vector<std::vector<int>> listed;
+  for (std::string line; std::getline(lines, line);) {
+    files.push_back(folder + "/" + line.substr(0, line.find('\t')));
+    std::istringstream ids(line.substr(line.find("ids=") + 4));
+    listed.emplace_back();
+    for (std::string id; ids >> id;) {
+      listed.back().push_back(std::stoi(id));
     }
-    std::sort(expected.begin(), expected.end());
-    const auto json = detected({folder + "/" + name});
-    const std::vector<int> found = ids_of(json["images"][0]);
+    std::sort(listed.back().begin(), listed.back().end());
+  }
+  ASSERT_THAT(files, Not(IsEmpty()));
+  const auto images = detected(files)["images"];
+  ASSERT_EQ(images.size(), files.size());
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::vector<int>& expected = listed[i];
+    const std::vector<int> found = ids_of(images[i]);
     std::vector<int> missing;
     std::set_difference(expected.begin(), expected.end(), found.begin(), found.end(),
                         std::back_inserter(missing));
-    EXPECT_THAT(missing, IsEmpty()) << name;
-    EXPECT_THAT(found, SizeIs(Le(expected.size() + more))) << name;
+    EXPECT_EQ(images[i]["image"], files[i]);
+    EXPECT_THAT(missing, IsEmpty()) << files[i];
+    EXPECT_THAT(found, SizeIs(Le(expected.size() + more))) << files[i];
   }
-  EXPECT_GT(images, 0);
 }
 
 // Distances of the corners, for the best match over the possible first corners and over tags with
@@ -195,11 +202,16 @@ struct PhotographErrors {
 
 PhotographErrors photograph_errors(const std::string& folder, const std::string& refinement) {
   PhotographErrors errors;
-  for (const char* name :
-       {"33369213973_9d9bb4cc96_c", "34085369442_304b6bafd9_c", "34139872896_defdb2f8d9_c"}) {
-    const auto json = detected({folder + "/" + name + ".jpg", "--refine", refinement});
-    for (const Corners& truth : truth_of(folder + "/" + name + ".txt")) {
-      const auto nearest = nearest_px(truth, json["images"][0]["markers"]);
+  const std::array<std::string, 3> names = {"33369213973_9d9bb4cc96_c", "34085369442_304b6bafd9_c",
+                                            "34139872896_defdb2f8d9_c"};
+  std::vector<std::string> arguments = {"--refine", refinement};
+  for (const std::string& name : names) {
+    arguments.push_back(folder + "/" + name + ".jpg");
+  }
+  const auto json = detected(arguments);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    for (const Corners& truth : truth_of(folder + "/" + names[i] + ".txt")) {
+      const auto nearest = nearest_px(truth, json["images"][i]["markers"]);
       if (*std::max_element(nearest.begin(), nearest.end()) < 10.0) {
         errors.corners_px.insert(errors.corners_px.end(), nearest.begin(), nearest.end());
       } else {
