@@ -268,7 +268,8 @@ TEST(RegisterArguments, RefusesWhatDoesNotGoTogetherInOneLineAndWritesNothing) {
       {"--tip-radius-mm", {"--level", "L4", "--tip-radius-mm", "-1"}},
       {"--tip-radius-mm", {"--level", "L4", "--tip-radius-mm", "nan"}},
       {"no/such/page.html", {"--level", "L4", "--report", folder.file("no/such/page.html")}},
-      {"1 points", {"--level", "L4", "--report", folder.file("page.html")}},
+      {"1 points",
+       {"--level", "L4", "--report", folder.file("page.html"), "--cache", ORTHONAV_TEST_MODELS}},
   };
   for (const auto& [expected, more] : cases) {
     std::vector<std::string> arguments{"register", "--points", points};
