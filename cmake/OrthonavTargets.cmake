@@ -142,11 +142,11 @@ function(orthonav_test_headers target)
     <string> <thread> <variant> <vector>)
 endfunction()
 
-# orthonav_test(NAME [IN folder] [SHARDS N | TOGETHER suite] [COST n] [COMPUTES] libs...) makes one test program
+# orthonav_test(NAME [IN folder] [SHARDS N | TOGETHER "suite;..."] [COST n] [COMPUTES] libs...) makes one test program
 # of every .cpp in the folder, which is the calling one unless it is named. COMPUTES: the tests themselves
 # compute so much that they are optimized; they then can't share the precompiled header, which is
 # built without optimization. Each test is a process of its own; with SHARDS N all run in N
-# processes, and with TOGETHER one suite runs in one, for tests that share what is slow to make. Tests of
+# processes, and with TOGETHER each of these suites runs in one, for tests that share what is slow to make. Tests of
 # greater COST start earlier, so that none of the long ones is left for the end.
 function(orthonav_test name)
   cmake_parse_arguments(PARSE_ARGV 1 test "COMPUTES" "IN;SHARDS;COST;TOGETHER" "")
@@ -194,10 +194,13 @@ function(orthonav_test name)
     list(APPEND properties COST ${test_COST})
   endif()
   set(others "")
+  foreach(suite IN LISTS test_TOGETHER)
+    add_test(NAME ${name}.${suite} COMMAND test_${name} --gtest_brief=1 "--gtest_filter=${suite}.*")
+    set_tests_properties(${name}.${suite} PROPERTIES ${properties})
+  endforeach()
   if(test_TOGETHER)
-    add_test(NAME ${name}.${test_TOGETHER} COMMAND test_${name} --gtest_brief=1 "--gtest_filter=${test_TOGETHER}.*")
-    set_tests_properties(${name}.${test_TOGETHER} PROPERTIES ${properties})
-    set(others TEST_FILTER "-${test_TOGETHER}.*")
+    list(JOIN test_TOGETHER ".*:" suites)
+    set(others TEST_FILTER "-${suites}.*")
   endif()
   gtest_discover_tests(test_${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}." ${others}
                        PROPERTIES ${properties})

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -98,13 +99,17 @@ class TrackCommand : public ::testing::Test {
 /// A recording of our own: three pairs are enough to test refusals.
 class TrackBadInput : public TrackCommand {
  protected:
-  void SetUp() override {
+  static void SetUpTestSuite() {
+    made_ = std::make_unique<ScratchFolder>();
     const ScratchFolder results;
-    sample_ = folder_.file("recording");
-    const Called made = orthonav({"run", "--levels", "L5", "--frames", "3", "--record", sample_,
-                                  "--out", results_in(results)});
+    const Called made = orthonav({"run", "--levels", "L5", "--frames", "3", "--record",
+                                  made_->file("recording"), "--out", results_in(results)});
     ASSERT_EQ(made.code, 0) << made.err;
   }
+  static void TearDownTestSuite() { made_.reset(); }
+  void SetUp() override { sample_ = made_->file("recording"); }
+
+  static inline std::unique_ptr<ScratchFolder> made_;
 };
 
 TEST_F(TrackBadInput, IsRefusedOnOtherwiseGoodRecordings) {
@@ -246,7 +251,7 @@ TEST_F(TrackBadInput, RefusesAMethodThatIsNotThere) {
   EXPECT_EQ(called.code, 2);
   EXPECT_THAT(called.err, HasSubstr("nearest: unknown (available: best, paper)"));
   EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1);
-  EXPECT_THAT(folder_.names(), ElementsAre("recording"));
+  EXPECT_THAT(folder_.names(), IsEmpty());
 }
 
 TEST_F(TrackBadInput, RefusesBadInputInOneLineAndWritesNothing) {
@@ -275,7 +280,7 @@ TEST_F(TrackBadInput, RefusesBadInputInOneLineAndWritesNothing) {
   }
   EXPECT_EQ(orthonav({"track", sample_, "--tools", tools}).code, 2) << "no --csv";
   EXPECT_EQ(track({"--full-search-every", "0"}).code, 2);
-  EXPECT_THAT(folder_.names(), ElementsAre("family.json", "recording", "twice.json"));
+  EXPECT_THAT(folder_.names(), ElementsAre("family.json", "twice.json"));
 }
 
 TEST_F(TrackBadInput, IsReadToItsLastWholePairAndLeavesNoCsvWhereThereIsNone) {
@@ -297,7 +302,7 @@ TEST_F(TrackBadInput, IsReadToItsLastWholePairAndLeavesNoCsvWhereThereIsNone) {
   const Called none = track_cut_at(1000);
   EXPECT_EQ(none.code, 2);
   EXPECT_THAT(none.err, HasSubstr("VLC RF.tar: holds no whole image"));
-  EXPECT_THAT(folder_.names(), ElementsAre("copy", "recording"));
+  EXPECT_THAT(folder_.names(), ElementsAre("copy"));
 }
 
 }  // namespace
