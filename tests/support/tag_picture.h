@@ -20,15 +20,29 @@ TagPicture tag_picture(const std::string& family, int id);
 inline constexpr double kTagWhite = 230.0;
 inline constexpr double kTagBlack = 20.0;
 
-/// Grey where a ray of the marker frame meets the tag's plane; negative beside the tag.
-inline double grey_on(const TagPicture& tag, double size_m, double x_m, double y_m) {
+/// A place on a tag, in cells from its picture's top left corner.
+struct TagPlace {
+  double column = 0.0;
+  double row = 0.0;
+};
+inline TagPlace place_on(const TagPicture& tag, double size_m, double x_m, double y_m) {
   const double cell_m = size_m / (tag.cells - 2 * tag.border_cells);
-  const int column = static_cast<int>(std::floor(x_m / cell_m + tag.cells / 2.0));
-  const int row = static_cast<int>(std::floor(-y_m / cell_m + tag.cells / 2.0));
+  return {x_m / cell_m + tag.cells / 2.0, -y_m / cell_m + tag.cells / 2.0};
+}
+
+/// Negative beside the tag.
+inline double grey_at(const TagPicture& tag, TagPlace place) {
+  const int column = static_cast<int>(std::floor(place.column));
+  const int row = static_cast<int>(std::floor(place.row));
   if (column < 0 || row < 0 || column >= tag.cells || row >= tag.cells) {
     return -1.0;
   }
   return tag.white[static_cast<std::size_t>(row * tag.cells + column)] ? kTagWhite : kTagBlack;
+}
+
+/// Grey where a ray of the marker frame meets the tag's plane; negative beside the tag.
+inline double grey_on(const TagPicture& tag, double size_m, double x_m, double y_m) {
+  return grey_at(tag, place_on(tag, size_m, x_m, y_m));
 }
 
 /// Where the n-th ray goes in a pixel's footprint: a box two pixels wide, like a lens's blur. With

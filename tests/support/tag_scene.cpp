@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "nav/tracking/tag_pose.h"
 #include "tests/support/tag_picture.h"
@@ -50,20 +51,66 @@ struct SeenTag {
   Mat3 marker_from_camera;
   Vec3 eye;
 
-  // Negative beside the tag.
-  [[nodiscard]] double grey_at(Vec2 place) const {
+  // Empty if the ray does not meet the tag's plane.
+  [[nodiscard]] std::optional<TagPlace> seen_at(Vec2 place) const {
     const auto unit = camera.model.unproject(place);
     if (!unit) {
-      return -1.0;
+      return std::nullopt;
     }
     const Vec3 direction = marker_from_camera * Vec3{unit->x, unit->y, 1.0};
     const double along = -eye.z / direction.z;
     if (!(along > 0.0)) {
-      return -1.0;
+      return std::nullopt;
     }
-    return grey_on(cells, size_m, eye.x + along * direction.x, eye.y + along * direction.y);
+    return place_on(cells, size_m, eye.x + along * direction.x, eye.y + along * direction.y);
   }
+
+  struct Rays {
+    double sum = 0.0;    // of greys
+    double count = 0.0;  // of those that meet the tag
+  };
+  [[nodiscard]] Rays quarter_at(int x, int y) const;
 };
+
+constexpr int kQuarterRays = kRaysASide * kRaysASide / 4;
+
+// Whether both lie in the same cell, so far within it that what is seen between them does too:
+// straight lines are bent by far less.
+bool in_one_cell(const TagPlace& a, const TagPlace& b) {
+  constexpr double kWithin = 0.02;
+  const auto well_within = [](double p, double q) {
+    const double cell = std::floor(p);
+    return std::min(p, q) > cell + kWithin && std::max(p, q) < cell + 1.0 - kWithin;
+  };
+  return well_within(a.column, b.column) && well_within(a.row, b.row);
+}
+
+SeenTag::Rays SeenTag::quarter_at(int x, int y) const {
+  constexpr int kLast = kRaysASide / 2 - 1;
+  const auto first = seen_at(quarter_place_of(x, y, 0));
+  bool one_cell = first.has_value();
+  for (const int ray : {kLast, kQuarterRays - 1 - kLast, kQuarterRays - 1}) {
+    const auto corner = one_cell ? seen_at(quarter_place_of(x, y, ray)) : std::nullopt;
+    one_cell = corner && in_one_cell(*first, *corner);
+  }
+  Rays rays;
+  const auto add = [&rays](double grey, double count) {
+    if (grey >= 0.0) {
+      rays.sum += count * grey;
+      rays.count += count;
+    }
+  };
+  if (one_cell) {
+    add(grey_at(cells, *first), kQuarterRays);
+    return rays;
+  }
+  for (int ray = 0; ray < kQuarterRays; ++ray) {
+    if (const auto seen = seen_at(quarter_place_of(x, y, ray))) {
+      add(grey_at(cells, *seen), 1.0);
+    }
+  }
+  return rays;
+}
 
 void draw(const Camera& camera, const PlacedTag& tag, std::vector<double>& sums,
           std::vector<double>& covered) {
@@ -81,16 +128,7 @@ void draw(const Camera& camera, const PlacedTag& tag, std::vector<double>& sums,
   // Footprints overlap: each quarter of one belongs to four pixels.
   for (int y = box.y_px; y <= box.y_px + box.height_px; ++y) {
     for (int x = box.x_px; x <= box.x_px + box.width_px; ++x) {
-      double sum = 0.0;
-      double count = 0.0;
-      for (int ray = 0; ray < kRaysASide * kRaysASide / 4; ++ray) {
-        const double seen = seen_tag.grey_at(quarter_place_of(x, y, ray));
-        if (seen < 0.0) {
-          continue;
-        }
-        sum += seen;
-        count += 1.0;
-      }
+      const auto [sum, count] = seen_tag.quarter_at(x, y);
       for (const int row : {y - 1, y}) {
         for (const int column : {x - 1, x}) {
           if (row < box.y_px || column < box.x_px || row == box.y_px + box.height_px ||
@@ -119,9 +157,7 @@ std::array<Vec2, 4> corners_seen(const CameraModel& model,
   return seen;
 }
 
-}  // namespace
-
-StereoCalibration test_calibration() {
+StereoCalibration made_calibration() {
   const BrownConrady left{640, 480, 362.0, 361.0, 324.0, 238.0, -0.04, 0.01, 3e-4, -2e-4, 0.0};
   const BrownConrady right{640, 480, 359.0, 360.0, 317.0, 243.0, -0.038, 0.009, -2e-4, 3e-4, 0.0};
   StereoCalibration calibration;
@@ -132,6 +168,13 @@ StereoCalibration test_calibration() {
   calibration.right_from_rig = {right_rotation * rotation_from_vector({0.005, -0.01, 0.008}),
                                 {0.0, 0.099, 0.004}};
   return calibration;
+}
+
+}  // namespace
+
+StereoCalibration test_calibration() {
+  static const StereoCalibration made = made_calibration();
+  return made;
 }
 
 GreyImage picture(const CameraModel& camera, const Transform<Rig, Marker>& rig_from_camera,
