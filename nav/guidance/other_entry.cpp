@@ -55,10 +55,10 @@ class Search {
       return;
     }
     const auto cylinder = cylinder_of(plan);
-    const auto clearance = cylinder ? least_clearance(bone_, *cylinder) : std::nullopt;
-    const double least_m = best_ ? best_->clearance.clearance_m : 0.0;
-    if (clearance && clearance->clearance_m > least_m) {
-      best_ = OtherEntry{plan.entry, *clearance, from_hole_m};
+    const double above_m = best_ ? best_->clearance.clearance_m : 0.0;
+    const auto better = cylinder ? least_clearance_above(above_m, bone_, *cylinder) : std::nullopt;
+    if (better) {
+      best_ = OtherEntry{plan.entry, *better, from_hole_m};
       best_across_m_ = across_m;
       best_athwart_m_ = athwart_m;
     }

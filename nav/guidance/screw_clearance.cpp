@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <Eigen/Cholesky>
+#include <limits>
 #include <numbers>
 
 #include "base/random.h"
@@ -46,9 +47,10 @@ struct Slice {
 
 class LeastDepth {
  public:
-  LeastDepth(const SurfaceIndex& bone, const CylinderSurface& screw)
-      : depths_(bone), screw_(screw) {}
+  LeastDepth(double above_m, const SurfaceIndex& bone, const CylinderSurface& screw)
+      : above_m_(above_m), depths_(bone), screw_(screw) {}
 
+  /// False as soon as a place is found that is no deeper than `above_m`.
   bool search();
   [[nodiscard]] Clearance found() const {
     return {best_m_, screw_.arc_length_m(best_along_m_), screw_.outward(best_around_rad_),
@@ -76,6 +78,7 @@ class LeastDepth {
   void look_at(const Patch& patch, bool inside);
   void refine(const Patch& patch, double depth_m);
 
+  double above_m_;
   DepthProbe depths_;
   const CylinderSurface& screw_;
   double best_m_ = 1e9;
@@ -112,18 +115,23 @@ bool LeastDepth::search() {
     if (open(slices[i].least_m)) {
       take(along_m, screw_.around_rad(-depth->deeper));
     }
+    if (best_m_ <= above_m_) {
+      return false;
+    }
   }
   descend();
   std::sort(slices.begin(), slices.begin() + static_cast<std::ptrdiff_t>(sides) + 1,
             [](const Slice& a, const Slice& b) {
               return a.least_m < b.least_m || (a.least_m == b.least_m && a.along_m < b.along_m);
             });
-  for (std::size_t i = 0; i <= sides; ++i) {
+  for (std::size_t i = 0; i <= sides && best_m_ > above_m_; ++i) {
     examine(slices[i]);
   }
-  descend();
-  close_steps();
-  return true;
+  if (best_m_ > above_m_) {
+    descend();
+    close_steps();
+  }
+  return best_m_ > above_m_;
 }
 
 /// Descends along the surface while the depth decreases.
@@ -413,11 +421,16 @@ const char* name_of(PedicleGrade grade) {
 }
 
 std::optional<Clearance> least_clearance(const SurfaceIndex& bone, const ScrewCylinder& screw) {
+  return least_clearance_above(-std::numeric_limits<double>::infinity(), bone, screw);
+}
+
+std::optional<Clearance> least_clearance_above(double above_m, const SurfaceIndex& bone,
+                                               const ScrewCylinder& screw) {
   const auto surface = CylinderSurface::of(screw);
   if (!surface) {
     return std::nullopt;
   }
-  LeastDepth least(bone, *surface);
+  LeastDepth least(above_m, bone, *surface);
   return least.search() ? std::optional(least.found()) : std::nullopt;
 }
 

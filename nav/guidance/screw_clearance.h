@@ -51,6 +51,12 @@ struct Clearance {
 [[nodiscard]] std::optional<Clearance> least_clearance(const SurfaceIndex& bone,
                                                        const ScrewCylinder& screw);
 
+/// The same, but empty as soon as it is known not to exceed `above_m`, which mostly few places
+/// tell: for who seeks the best of many screws.
+[[nodiscard]] std::optional<Clearance> least_clearance_above(double above_m,
+                                                             const SurfaceIndex& bone,
+                                                             const ScrewCylinder& screw);
+
 /// The least depth of the side in each of a series of planes across the axis, evenly spaced from 6
 /// mm past the entry to the tip, both included; the circumference is sampled every 10°. Returns
 /// false, and writes nothing, if `least_clearance` is empty.
