@@ -128,11 +128,11 @@ const engine::Guidance& ScriptedOperation::pair() {
   inputs.display_time = now_ + latency;
   inputs.stalled = stalled;
   inputs.time_runs = time_runs;
-  const engine::Guidance& guidance = session_->step(frame, inputs);
+  shown_ = &session_->step(frame, inputs);
   clicks_.clear();
   phrases_.clear();
   requests_.clear();
-  return guidance;
+  return *shown_;
 }
 
 const engine::Guidance& ScriptedOperation::pairs(int n) {

@@ -73,6 +73,8 @@ class ScriptedOperation {
   const engine::Guidance& finishes_every_screw();
 
   [[nodiscard]] engine::Session& session() { return *session_; }
+  /// Of the newest pair; there must have been one.
+  [[nodiscard]] const engine::Guidance& shown() const { return *shown_; }
   [[nodiscard]] ScriptedTracker& tracker() { return *tracker_; }
   [[nodiscard]] Timestamp now() const { return now_; }
 
@@ -93,6 +95,7 @@ class ScriptedOperation {
   std::vector<engine::Request> requests_;
   ScriptedTracker* tracker_ = nullptr;
   std::unique_ptr<engine::Session> session_;
+  const engine::Guidance* shown_ = nullptr;
 };
 
 /// SD along an axis of the difference between the guide's tip and the pointer's if the two were

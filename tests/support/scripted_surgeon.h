@@ -74,12 +74,14 @@ class ScriptedSurgeon {
  private:
   static constexpr Vec3 kOnBone{0, 0.02, 0};
 
-  [[nodiscard]] const engine::LevelState& level() { return s_.session().levels()[s_.pair().level]; }
+  [[nodiscard]] const engine::LevelState& level() {
+    return s_.session().levels()[s_.shown().level];
+  }
   [[nodiscard]] std::size_t screw() { return level().open_screw().value_or(0); }
   [[nodiscard]] Vec3 entry() { return level().plan.screws[screw()].entry.v; }
-  [[nodiscard]] bool is_second_level() { return eventful_ && s_.pair().level == 1; }
+  [[nodiscard]] bool is_second_level() { return eventful_ && s_.shown().level == 1; }
   [[nodiscard]] bool is_to_be_moved() {
-    return eventful_ && s_.pair().level == 0 && screw() == 1 && !level().screws[1].replanned();
+    return eventful_ && s_.shown().level == 0 && screw() == 1 && !level().screws[1].replanned();
   }
   [[nodiscard]] bool is_to_be_redone() {
     return is_second_level() && screw() == 0 && level().screws[0].redone == 0;
@@ -87,7 +89,7 @@ class ScriptedSurgeon {
 
   bool digitize() {
     std::size_t saved = 0;
-    for (const nav::Region& region : s_.pair().regions) {
+    for (const nav::Region& region : s_.shown().regions) {
       saved += region.saved ? 1 : 0;
     }
     if (saved < 2) {
@@ -117,7 +119,7 @@ class ScriptedSurgeon {
   }
 
   bool touch_landmark() {
-    const auto* so_far = std::get_if<engine::LandmarkSoFar>(&s_.pair().status.state);
+    const auto* so_far = std::get_if<engine::LandmarkSoFar>(&s_.shown().status.state);
     if (so_far != nullptr && (!so_far->last || so_far->last->missing > 0)) {
       s_.touches(ScriptedOperation::kLandmark);
     } else if (s_.says("next").step == engine::Step::kTouchLandmark) {
@@ -127,7 +129,7 @@ class ScriptedSurgeon {
   }
 
   bool measure() {
-    if (const engine::PlacedWire* wire = s_.pair().wire) {
+    if (const engine::PlacedWire* wire = s_.shown().wire) {
       const bool stays = wire->within() || wire->kept;
       s_.says(stays ? "next" : is_to_be_redone() ? "delete" : "accept");
       return true;
