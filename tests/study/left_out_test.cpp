@@ -81,6 +81,7 @@ OperationOptions modelled() {
   options.loop.draw_every = 0;
   options.session.live_clearance = false;
   options.sim.error_model = sim::ErrorModel::perfect();
+  options.sim.error_model.pace = 4.0;
   options.sim.seed = 3;
   return options;
 }

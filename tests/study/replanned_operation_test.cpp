@@ -61,6 +61,7 @@ TEST(ReplannedOperation, TheWireFollowsThePlanInUse) {
   Operation operation = plan_operation(source, {"L4"}).value();
   sim::SimOptions sim;
   sim.error_model = sim::ErrorModel::perfect();
+  sim.error_model.pace = 10.0;
   sim.render = false;
   sim.surgeon = sim::ScriptedSurgeon::bring;
   const auto room =
