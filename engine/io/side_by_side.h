@@ -17,6 +17,7 @@ Picture side_by_side(const std::vector<Picture>& views, Values Picture::*values,
   joined.height_px = views.front().height_px;
   joined.width_px = views.front().width_px * static_cast<int>(views.size());
   const std::size_t row = channels * static_cast<std::size_t>(views.front().width_px);
+  (joined.*values).reserve(row * views.size() * static_cast<std::size_t>(joined.height_px));
   for (std::size_t y = 0; y < static_cast<std::size_t>(joined.height_px); ++y) {
     for (const Picture& view : views) {
       const auto begin = (view.*values).begin() + static_cast<std::ptrdiff_t>(y * row);
