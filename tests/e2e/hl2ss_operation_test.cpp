@@ -139,7 +139,7 @@ void expect_wires_within(double angle_deg, double entry_m, const std::vector<Wir
 }
 
 TEST(OverTcp, H264AWholeOperationIsExactWithinTheCodecsNoise) {
-  const Operated done = operate(hl2ss::VideoProfile::kH264Base, {}, 6.0);
+  const Operated done = operate(hl2ss::VideoProfile::kH264Base, {}, 10.0);
   EXPECT_TRUE(done.result.completed);
   ASSERT_EQ(done.wires.size(), 2u);
   expect_wires_within(kCodecAngle_deg, kCodecEntry_m, done.wires);
@@ -151,8 +151,8 @@ TEST(OverTcp, H264AWholeOperationIsExactWithinTheCodecsNoise) {
 TEST(OverTcp, RawIsAsExactAsTheDirectRunThroughEveryFaultAndAJumpWhileGuiding) {
   hl2ss::Faults faults = *hl2ss::faults_of("all");
   faults.stall = 0.002;  // a third of a second each
-  faults.jump_at = {945};
-  const Operated done = operate(hl2ss::VideoProfile::kRaw, faults, 6.0);
+  faults.jump_at = {580};
+  const Operated done = operate(hl2ss::VideoProfile::kRaw, faults, 10.0);
   EXPECT_TRUE(done.result.completed);
   EXPECT_THAT(done.map_moves, ::testing::ElementsAre(Step::kGuide));
   EXPECT_GE(done.wires.size(), 2u);

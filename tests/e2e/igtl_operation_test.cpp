@@ -176,7 +176,7 @@ Operated operate(bool reference) {
   Operation operation = planned({"L5"});
   sim::SimOptions sim;
   sim.error_model = sim::ErrorModel::perfect();
-  sim.error_model.pace = 4.0;
+  sim.error_model.pace = 10.0;
   sim.render = false;
   sim.surgeon = sim::ScriptedSurgeon::bring;
   const auto room =

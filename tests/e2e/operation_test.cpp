@@ -167,8 +167,8 @@ LoggedOperation logged(const OperationOptions& options) {
 
 TEST(Operation, AtItsDocumentedErrorsGivesTheSamePosesAndStepsWithOneAndTwoThreads) {
   OperationOptions options = one_level();
-  // A hasty surgeon: the same errors, the whole operation in a sixth of the frames.
-  options.sim.error_model.pace = 6.0;
+  // A hasty surgeon: the same errors, the whole operation in a tenth of the frames.
+  options.sim.error_model.pace = 10.0;
   options.tracker.parallel = true;
   const LoggedOperation two_threads = logged(options);
   ASSERT_TRUE(two_threads.result.ok()) << two_threads.result.error().message;
@@ -201,7 +201,7 @@ TEST(Operation, ARecordingReplaysToIdenticalPosesAndSteps) {
   const fs::path folder = fs::path(::testing::TempDir()) / "replayed-operation";
   fs::remove_all(folder);
   OperationOptions options = one_level();
-  options.sim.error_model.pace = 6.0;
+  options.sim.error_model.pace = 10.0;
   options.loop.max_frames = 90;
   options.record_folder = folder.string();
   const LoggedOperation live = logged(options);

@@ -22,14 +22,14 @@ namespace {
 
 using test::is_ok;
 
-/// In the measurement model, with a brisk surgeon: the same work in a quarter of the pairs.
+/// In the measurement model, with a brisk surgeon: the same work in a tenth of the pairs.
 OperationOptions two_levels() {
   OperationOptions options;
   options.measurement = Measurement::kModel;
   options.tools = built_in_tools();
   options.levels = {"L4", "L5"};
   options.use_reference = true;
-  options.sim.error_model.pace = 4.0;
+  options.sim.error_model.pace = 10.0;
   options.loop.draw_every = 0;
   return options;
 }
