@@ -19,44 +19,6 @@ namespace {
 constexpr double kGridStep_m = 0.0014;
 constexpr const char* kReferenceLevel = "L3";
 
-/// A shape's values, each with the bars alone that matter in a cell around the point.
-class CellwiseValues {
- public:
-  explicit CellwiseValues(const VertebraShape& shape) : shape_(&shape), low_m_(shape.low_m()) {
-    const Vec3 extent_m = shape.high_m() - low_m_;
-    std::size_t cells = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      size_[axis] = std::ceil(extent_m[axis] / kCell_m) + 1.0;
-      cells *= static_cast<std::size_t>(size_[axis]);
-    }
-    bars_.resize(cells);
-  }
-  double operator()(Vec3 p) {
-    Vec3 cell = (p - low_m_) / kCell_m;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!(cell[axis] >= 0.0 && cell[axis] < size_[axis])) {
-        return shape_->value(p);
-      }
-      cell[axis] = std::floor(cell[axis]);
-    }
-    VertebraShape::Bars& bars =
-        bars_[static_cast<std::size_t>((cell.z * size_.y + cell.y) * size_.x + cell.x)];
-    if (bars == 0) {  // asked for the first time
-      bars = shape_->bars_near(low_m_ + kCell_m * (cell + Vec3{0.5, 0.5, 0.5}),
-                               0.5 * std::sqrt(3.0) * kCell_m);
-    }
-    return shape_->value(p, bars);
-  }
-
- private:
-  static constexpr double kCell_m = 0.002;
-
-  const VertebraShape* shape_;
-  Vec3 low_m_;
-  Vec3 size_;  ///< in cells, whole numbers
-  std::vector<VertebraShape::Bars> bars_;
-};
-
 /// The screw along the axis of a pedicle, entering where that axis meets the bone from behind.
 nav::ScrewPlan screw_along(const nav::Axis<Vertebra>& axis, nav::Side side,
                            const nav::SurfaceIndex& bone, const PhantomParameters& parameters) {
@@ -74,7 +36,8 @@ CaseLevel made(const VertebraMorphometry& morphometry, const PhantomParameters& 
   const VertebraShape shape(morphometry);
   CaseLevel level;
   level.label = morphometry.label;
-  level.mesh = nav::surface_of(CellwiseValues(shape), shape.low_m(), shape.high_m(), kGridStep_m);
+  level.mesh = nav::surface_of([&shape](Vec3 p) { return shape.value(p); }, shape.low_m(),
+                               shape.high_m(), kGridStep_m);
   const nav::SurfaceIndex bone(level.mesh);
   for (const nav::Side side : {nav::Side::kLeft, nav::Side::kRight}) {
     level.screws.push_back(screw_along(shape.pedicle_axis(side), side, bone, parameters));

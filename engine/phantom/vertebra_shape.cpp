@@ -13,9 +13,6 @@ constexpr double kRim_m = 0.0030;    ///< rounding of the endplates' rims
 constexpr double kWaist_m = 0.0022;  ///< the body is this much narrower at half height
 constexpr double kEndplateHollow_m = 0.0016;
 constexpr double kMargin_m = 0.004;
-constexpr double kFar_m = 1.0;
-/// Change of a bar's value along a way, at most.
-constexpr double kSteepest = 2.0;
 
 /// Minimum of two, rounded over `k` (cubic polynomial of Quilez: twice differentiable).
 double smooth_min(double a, double b, double k) {
@@ -200,42 +197,16 @@ Vec3 VertebraShape::straightened(Vec3 p) const {
   return p;
 }
 
-template <class Take>
-void VertebraShape::for_each(Vec3 p, Bars bars, const Take& take) const {
+double VertebraShape::value(Vec3 p) const {
   const Vec3 q = straightened(p);
   const Vec3 left = {std::abs(q.x), q.y, q.z};
-  Bars bit = 1;
-  for (const auto& [some, at] : {std::pair(&left_bars_, left), std::pair(&middle_bars_, q)}) {
-    for (const Bar& bar : *some) {
-      if ((bars & bit) != 0) {
-        take(bit, bar.value(at));
-      }
-      bit <<= 1U;
-    }
+  double arch = 1.0;
+  for (const Bar& bar : left_bars_) {
+    arch = smooth_min(arch, bar.value(left), kBlend_m);
   }
-}
-
-VertebraShape::Bars VertebraShape::bars_near(Vec3 p, double radius_m) const {
-  // By so much may two values come closer within the radius.
-  const double margin = 2.0 * kSteepest * radius_m;
-  double arch = kFar_m;
-  Bars near = 0;
-  for_each(p, ~Bars{0}, [&](Bars bit, double value) {
-    if (value > arch + kBlend_m + margin) {
-      return;
-    }
-    if (arch > value + kBlend_m + margin) {
-      near = 0;
-    }
-    near |= bit;
-    arch = smooth_min(arch, value, kBlend_m);
-  });
-  return near;
-}
-
-double VertebraShape::value(Vec3 p, Bars bars) const {
-  double arch = kFar_m;
-  for_each(p, bars, [&arch](Bars, double value) { arch = smooth_min(arch, value, kBlend_m); });
+  for (const Bar& bar : middle_bars_) {
+    arch = smooth_min(arch, bar.value(q), kBlend_m);
+  }
   arch = smooth_max(arch, -canal(p), kCanalBlend_m);
   // Of the body this much is certain; it blends in no farther away.
   const bool far = std::hypot(p.x, p.y) - body_reach_m_ > arch + kBodyBlend_m;

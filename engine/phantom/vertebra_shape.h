@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -49,13 +48,8 @@ struct VertebraMorphometry {
 class VertebraShape {
  public:
   explicit VertebraShape(const VertebraMorphometry& m);
-  /// Some of the bars, a bit each.
-  using Bars = std::uint32_t;
-  /// Those on which the value depends within `radius_m` of a point.
-  [[nodiscard]] Bars bars_near(Vec3 p, double radius_m) const;
-  /// Negative inside; close to the distance near the surface. With the bars near it the value has
-  /// the bits that it has with all.
-  [[nodiscard]] double value(Vec3 p, Bars bars = ~Bars{0}) const;
+  /// Negative inside; close to the distance near the surface.
+  [[nodiscard]] double value(Vec3 p) const;
   /// A point on a pedicle's axis (at its waist) and the unit direction forwards.
   [[nodiscard]] nav::Axis<Vertebra> pedicle_axis(nav::Side side) const;
   /// A box that holds the shape with 4 mm to spare.
@@ -73,9 +67,6 @@ class VertebraShape {
     [[nodiscard]] double value(Vec3 p) const;
   };
   static Bar bar(Vec3 from, Vec3 to, Vec3 normal, Vec2 widths, Vec2 thicknesses);
-  /// Calls take(bar's bit, its value at p) for each of these bars, in order.
-  template <class Take>
-  void for_each(Vec3 p, Bars bars, const Take& take) const;
   [[nodiscard]] double body(Vec3 p) const;
   [[nodiscard]] double canal(Vec3 p) const;
   void add_pedicle_and_transverse_process();

@@ -4,16 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <numeric>
 
-#include "base/random.h"
 #include "engine/phantom/phantom_file.h"
-#include "engine/phantom/vertebra_shape.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/test_meshes.h"
 
 namespace orthonav::engine {
@@ -232,30 +228,6 @@ TEST(Phantom, NamesItsLevelsWithoutMakingThem) {
     labels.push_back(level.label);
   }
   EXPECT_EQ(phantom_labels(), labels);
-}
-
-TEST(VertebraShape, HasTheSameBitsWithTheBarsNearAPoint) {
-  constexpr double kRadius_m = 0.002;
-  const auto parameters = phantom_parameters(
-      orthonav::test::content_of(ORTHONAV_SOURCE_DIR "/data/phantom.json"), "phantom.json");
-  ASSERT_TRUE(parameters.ok());
-  Random random(8);
-  std::size_t fewer = 0;
-  for (const VertebraMorphometry& morphometry : parameters->levels) {
-    const VertebraShape shape(morphometry);
-    const Vec3 extent = shape.high_m() - shape.low_m();
-    for (int i = 0; i < 20000; ++i) {
-      const Vec3 middle =
-          shape.low_m() + Vec3{random.uniform() * extent.x, random.uniform() * extent.y,
-                               random.uniform() * extent.z};
-      const Vec3 away{random.normal(0, 1), random.normal(0, 1), random.normal(0, 1)};
-      const Vec3 p = middle + away * (kRadius_m / away.norm());
-      const VertebraShape::Bars bars = shape.bars_near(middle, kRadius_m);
-      ASSERT_EQ(shape.value(p, bars), shape.value(p)) << morphometry.label;
-      fewer += std::popcount(bars) <= 6 ? 1 : 0;
-    }
-  }
-  EXPECT_GT(fewer, 40000U) << "or the bars are chosen for nothing";
 }
 
 TEST(Phantom, IsNotItsOwnMirrorImage) {
