@@ -196,6 +196,7 @@ using Products = Eigen::Matrix<double, kColumns, kColumns>;
 constexpr int kShares = 7;
 constexpr int kTimes = 9;
 constexpr int kRatios = 6;
+constexpr int kActs = 3;
 constexpr double kLeastRatio = 0.12;
 
 constexpr double kByRatio = 2.8;
@@ -205,18 +206,18 @@ double ratio(int k) { return k == 0 ? 0.0 : kLeastRatio * std::pow(kByRatio, k -
 double ratio_above(int k) { return kLeastRatio * std::pow(kByRatio, k - 0.5); }
 
 /// Indices of what a point of the grid is made of. Even times and lengths are rough, odd smooth.
-enum Index : std::size_t { kShare, kTime, kTissue, kLength, kStroke, kModel, kByArea };
+enum Index : std::size_t { kShare, kTime, kTissue, kLength, kStroke, kModel, kAct };
 using Node = std::array<int, 7>;
 
 /// An index that means nothing where another one has this value: white noise has no time, no tissue
-/// no length, equal strokes no areas. It is then 0.
+/// no length, a hand that is even no acts. It is then 0.
 struct Detail {
   std::size_t detail;
   std::size_t of;
   int means_nothing_at;
 };
 constexpr Detail kDetails[] = {
-    {kTime, kShare, kShares - 1}, {kLength, kTissue, 0}, {kByArea, kStroke, 0}};
+    {kTime, kShare, kShares - 1}, {kLength, kTissue, 0}, {kAct, kStroke, 0}};
 Node canonical(Node node) {
   for (const Detail& d : kDetails) {
     if (node[d.of] == d.means_nothing_at) {
@@ -244,7 +245,7 @@ Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
                      node[kLength] % 2 == 1};
   out.stroke = ratio(node[kStroke]);
   out.model = ratio(node[kModel]);
-  out.by_area = node[kByArea] == 1;
+  out.act = static_cast<Act>(node[kAct]);
   return out;
 }
 
@@ -266,7 +267,7 @@ double log_prior_of(const Prior& prior, const Node& node, double s_m, double noi
   const double times = node[kShare] == kShares - 1 ? 1.0 : 2.0 * kTimes;
   const double lengths =
       node[kTissue] == 0 ? 1.0 : 2.0 * static_cast<double>(prior.tissue_lengths_m.size());
-  const double acts = node[kStroke] == 0 ? 1.0 : 2.0;
+  const double acts = node[kStroke] == 0 ? 1.0 : static_cast<double>(kActs);
   return std::log(tissue / lengths) + std::log(strokes / acts) + std::log(model / times) +
          log_density_of_noise(prior, noise_m);
 }
@@ -371,6 +372,7 @@ struct Averaged::Units {
   /// Covariances, relative to the noise's variance, by what they are of; lower triangles.
   std::map<Correlated, Eigen::MatrixXd> fields;
   std::map<Correlated, Eigen::MatrixXd> wandering_noise;
+  std::map<Act, Eigen::MatrixXd> acts;
   struct Factor {
     Eigen::MatrixXd root;  ///< Cholesky's, lower triangle
     double log_determinant = 0.0;
@@ -380,15 +382,8 @@ struct Averaged::Units {
   };
   std::map<Node, std::optional<Factor>> factors;
 
-  /// What a unit has a height in common with; those of an act stand together.
-  [[nodiscard]] int act_of(const Mixture& mix, Eigen::Index k) const {
-    const Unit& unit = units[static_cast<std::size_t>(k)];
-    return mix.by_area ? unit.area : unit.stroke;
-  }
-
-  template <class Of>
-  const Eigen::MatrixXd& kept(std::map<Correlated, Eigen::MatrixXd>& all, const Correlated& key,
-                              const Of& of) {
+  template <class Key, class Of>
+  const Eigen::MatrixXd& kept(std::map<Key, Eigen::MatrixXd>& all, const Key& key, const Of& of) {
     auto [place, is_new] = all.try_emplace(key);
     if (is_new) {
       const auto m = static_cast<Eigen::Index>(units.size());
@@ -405,6 +400,22 @@ struct Averaged::Units {
 
   const Eigen::MatrixXd& of_field(const Correlated& field) {
     return kept(fields, field, [&](const Unit& a, const Unit& b) { return between(a, b, field); });
+  }
+
+  /// Of the heights of acts.
+  const Eigen::MatrixXd& of_act(Act act) {
+    return kept(acts, act, [&](const Unit& a, const Unit& b) {
+      switch (act) {
+        case Act::kStroke:
+          return a.stroke == b.stroke ? 1.0 : 0.0;
+        case Act::kArea:
+          return a.area == b.area ? 1.0 : 0.0;
+        case Act::kWhile:
+          break;
+      }
+      const double apart_s = 0.5 * std::abs(a.begin_s + a.end_s - b.begin_s - b.end_s);
+      return std::exp(-apart_s / prior.while_s);
+    });
   }
 
   /// Empty where the covariance is not positive definite.
@@ -430,12 +441,11 @@ struct Averaged::Units {
              return a.stroke == b.stroke ? wandering(a, b, mix.noise) : 0.0;
            });
     }
-    for (Eigen::Index b = 0; b < m; ++b) {
-      const auto at = static_cast<std::size_t>(b);
-      c(b, b) += mix.white / points[at];
-      for (Eigen::Index a = b; a < m && act_of(mix, a) == act_of(mix, b); ++a) {
-        c(a, b) += mix.stroke * mix.stroke;
-      }
+    if (mix.stroke > 0.0) {
+      c += mix.stroke * mix.stroke * of_act(mix.act);
+    }
+    for (Eigen::Index k = 0; k < m; ++k) {
+      c(k, k) += mix.white / points[static_cast<std::size_t>(k)];
     }
     // In place: a copy would cost as much again in page faults, since hundreds are kept.
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> in_place(c);
@@ -760,7 +770,7 @@ Node size_of_grid(const Averaged::Units& units) {
           2 * static_cast<int>(units.prior.tissue_lengths_m.size()),
           kRatios,
           kRatios,
-          units.has_areas ? 2 : 1};
+          units.has_areas ? kActs : 1};
 }
 
 /// The points of the grid next to one.
@@ -829,10 +839,10 @@ std::vector<Node> scattered(const Node& size) {
       }
       out.push_back(even);
       out.back()[kModel] = 4;  // where it is known to be off by more than the noise
-      if (size[kByArea] > 1) {
+      for (int act = 1; act < size[kAct]; ++act) {
         out.push_back(even);
         out.back()[kStroke] = 2;
-        out.back()[kByArea] = 1;
+        out.back()[kAct] = act;
       }
     }
   }
@@ -998,23 +1008,15 @@ std::vector<EstimatedHeight> heights_of(Averaged::Units& units, const Touches& t
     const Eigen::VectorXd solved = root.adjoint().solve(root.solve(left));
     // What the covariance of the fields, and of the strokes' own heights, makes of what is left.
     Eigen::VectorXd fields = Eigen::VectorXd::Zero(n);
-    const auto add = [&](double sd, const Correlated& field) {
-      if (sd > 0.0) {
-        fields += sd * sd * (units.of_field(field).selfadjointView<Eigen::Lower>() * solved);
-      }
+    const auto add = [&](double sd, const Eigen::MatrixXd& correlation) {
+      fields += sd * sd * (correlation.selfadjointView<Eigen::Lower>() * solved);
     };
-    add(of.tissue, of.tissue_over);
-    add(of.model, {units.prior.model_length_m, true});
-    std::map<int, double> of_act;
-    for (Eigen::Index k = 0; k < n; ++k) {
-      of_act[units.act_of(of, k)] += solved(k);
-    }
+    add(of.tissue, units.of_field(of.tissue_over));
+    add(of.model, units.of_field({units.prior.model_length_m, true}));
+    add(of.stroke, units.of_act(of.act));
     const double p = std::exp(a.log_weight - likeliest_first.front().second.log_weight);
     sum += p;
-    for (Eigen::Index k = 0; k < n; ++k) {
-      mean(k) += p * (a.part.standoff_m + valleys(k) + fields(k) +
-                      of.stroke * of.stroke * of_act[units.act_of(of, k)]);
-    }
+    mean += p * (valleys + fields) + Eigen::VectorXd::Constant(n, p * a.part.standoff_m);
   }
   std::vector<EstimatedHeight> out;
   for (Eigen::Index k = 0; k < n; ++k) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -23,7 +24,7 @@ namespace orthonav::nav::posterior {
 //
 // s >= 0 is the mean height of the tip (tissue, a light hand), u a Gaussian field over the bone
 // (tissue's thickness), v how deep in a valley the place lies (tissue is thick there, by an unknown
-// c), f another field (the model is not the bone), g a height per stroke or per area, n the noise
+// c), f another field (the model is not the bone), g a height per act of the hand, n the noise
 // of hand and tracker: white from point to point, and wandering along a stroke
 // (Ornstein-Uhlenbeck). Or the point has nothing to do with the bone, and d is anything within a
 // range.
@@ -45,14 +46,18 @@ struct Correlated {
   friend auto operator<=>(const Correlated&, const Correlated&) = default;
 };
 
+/// What the hand does with one pressure, and so has a height of its own: a stroke, an area, or all
+/// that is stroked at about the same time.
+enum class Act : std::uint8_t { kStroke, kArea, kWhile };
+
 /// A point of the grid: what the heights consist of, relative to the noise.
 struct Mixture {
   double white = 0.0;   ///< share of the noise's variance that is white
   Correlated noise;     ///< the rest, in time
   double tissue = 0.0;  ///< SD of tissue over the bone, of the noise's SD; 0: there is none
   Correlated tissue_over;
-  double stroke = 0.0;  ///< SD of the heights of strokes, or of areas, of the noise's SD
-  bool by_area = false;
+  double stroke = 0.0;  ///< SD of the heights of acts, of the noise's SD
+  Act act = Act::kStroke;
   double model = 0.0;  ///< SD of the model's error, of the noise's SD
 };
 

@@ -24,6 +24,9 @@ struct Prior {
   /// Share of registrations in which each stroke has a height of its own; how different, as for
   /// tissue. A guess.
   double uneven_hand_share = 0.5;
+  /// Or the hand changes its pressure within this time, s: most of all where it strokes again after
+  /// a refusal. A guess. Doubled: nothing.
+  double while_s = 30.0;
 
   // The model is not the bone.
 

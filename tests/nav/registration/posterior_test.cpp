@@ -292,6 +292,38 @@ TEST(Posterior, AHandThatWandersSmoothlyIsNotTakenForTissue) {
   EXPECT_LT(squares / kRuns, 2.0);
 }
 
+/// Strokes that were refused stay, and those made after them press harder: through the same tissue,
+/// nearer to the bone.
+TEST(Posterior, AHandThatPressesHarderThanBeforeIsNoField) {
+  constexpr double kLater_s = 60.0;
+  auto light = test::digitize_strokes(bone().from.mesh, test::StrokeVariant::kFull, 4).value();
+  auto firm = test::digitize_strokes(bone().from.mesh, test::StrokeVariant::kFull, 5).value();
+  test::apply_truths({test::Tissue::kSmooth, 0.0025}, bone().from.mesh, 4, light);
+  test::apply_truths({test::Tissue::kSmooth, 0.0010}, bone().from.mesh, 4, firm);
+  std::vector<Point<World>> tips = light.tips();
+  std::vector<double> times_s = light.times_s();
+  const auto same_world = light.world_from_vertebra * firm.world_from_vertebra.inverse();
+  const double end_s = times_s.back();
+  const std::vector<double> then_s = firm.times_s();
+  for (std::size_t i = 0; i < then_s.size(); ++i) {
+    tips.push_back(same_world * firm.tips()[i]);
+    times_s.push_back(end_s + kLater_s + then_s[i]);
+  }
+  const Observations both = observed(tips, 0.0, {}, times_s);
+  const Decision d = decided(*bone().model, both, bone().question()).value();
+  double in_time = 0.0;
+  for (const Part& part : d.answer.parts) {
+    in_time += part.of.act == Act::kWhile ? part.weight : 0.0;
+  }
+  EXPECT_GT(in_time, 0.9);
+  // The control: a hand that never changes has to be explained otherwise.
+  Question never = bone().question();
+  never.prior.while_s = 1e9;
+  const Decision otherwise = decided(*bone().model, both, never).value();
+  EXPECT_LT(otherwise.answer.log_evidence, d.answer.log_evidence - 10.0);
+  EXPECT_LT(error_m(d, light.world_from_vertebra), 2.0 * d.rms_m);
+}
+
 /// Tissue that is even within an area and leaps from one to the next is no smooth field: the pose
 /// is as exact as over even tissue.
 TEST(Posterior, TissueThatLeapsBetweenAreasIsNoField) {
@@ -302,7 +334,7 @@ TEST(Posterior, TissueThatLeapsBetweenAreasIsNoField) {
   const Decision d = decided(*bone().model, areas, bone().question()).value();
   double by_area = 0.0;
   for (const Part& part : d.answer.parts) {
-    by_area += part.of.by_area ? part.weight : 0.0;
+    by_area += part.of.act == Act::kArea ? part.weight : 0.0;
   }
   EXPECT_GT(by_area, 0.99);
   EXPECT_TRUE(d.accepted);
