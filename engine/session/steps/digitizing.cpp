@@ -21,8 +21,25 @@ void Registering::watch(WorkWatch* watch) {
 }
 
 RegistrationJob Registering::now(RegistrationJob job) const {
-  job.found = registrar_({*job.level.model, job.points, job.level.screws, job.level.neighbours,
-                          job.common, job.shafts, job.times});
+  const auto register_from = [&](std::size_t first) {
+    return registrar_({*job.level.model, std::span(job.points).subspan(first), job.level.screws,
+                       job.level.neighbours, job.common, std::span(job.shafts).subspan(first),
+                       std::span(job.times).subspan(first)});
+  };
+  const auto passes = [](const Result<nav::Registration>& found) {
+    return found && (found->accepted || found->provisional);
+  };
+  job.found = register_from(0);
+  const std::size_t refused = std::exchange(job.after_refusal, 0);
+  if (refused > 0 && refused < job.points.size() && !passes(*job.found)) {
+    Result<nav::Registration> alone = register_from(refused);
+    if (passes(alone)) {
+      job.found = std::move(alone);
+      job.after_refusal = refused;
+      job.points.erase(job.points.begin(),
+                       job.points.begin() + static_cast<std::ptrdiff_t>(refused));
+    }
+  }
   return job;
 }
 
@@ -202,7 +219,13 @@ std::optional<Event> Digitizing::register_level(SessionState& work, Timestamp ti
                       digitizer.saved_times(),
                       common,
                       time,
+                      0,
                       {}};
+  if (level.newest && work.method.verification == Verification::kByTouch) {
+    const std::vector<Point<World>>& before = level.newest->points;
+    job.after_refusal =
+        static_cast<std::size_t>(std::ranges::mismatch(before, job.points).in1 - before.begin());
+  }
   if (work.waits) {
     return take(work, registering_.now(std::move(job)), time);
   }
@@ -229,7 +252,7 @@ Event Digitizing::take(SessionState& work, RegistrationJob job, Timestamp time) 
   } else {
     outcome.result = *result;
     outcome.provisional = result->provisional && work.method.verification == Verification::kByTouch;
-    level.newest = RegistrationAttempt{std::move(job.points), *result};
+    level.newest = RegistrationAttempt{std::move(job.points), *result, job.after_refusal};
   }
   if (outcome.passed()) {
     level.registration = *result;
@@ -376,6 +399,7 @@ void log_registration(LogJson& json, const LevelState& level, const Registration
   }
   if (outcome.passed()) {
     json["points_hash"] = hash_of(level.newest->points);
+    json["points_left_out"] = level.newest->left_out;
     json["digitization_s"] = level.digitization_s;
   }
   if (level.tag_size) {
@@ -408,7 +432,11 @@ LoggedRegistration read_registration(const JsonNode& node, LevelState& level,
   level.forget_registration();
   level.registration = asked.result;
   level.digitization_s = node.number("digitization_s");
-  level.newest = {points_of(strokes), *level.registration};
+  std::vector<Point<World>> points = points_of(strokes);
+  const auto left_out =
+      std::min(points.size(), static_cast<std::size_t>(node.unsigned_integer("points_left_out")));
+  points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(left_out));
+  level.newest = {std::move(points), *level.registration, left_out};
   if (hash_of(level.newest->points) != node.text("points_hash")) {
     level.newest.reset();
   }

@@ -25,6 +25,9 @@ struct RegistrationJob {
   std::vector<Timestamp> times;
   nav::CommonErrors common;
   Timestamp asked{};
+  /// How many of the points had been refused before. Where all are refused again, those that follow
+  /// are tried alone: whoever was told to scrape to the bone holds the pointer otherwise.
+  std::size_t after_refusal = 0;
   std::optional<Result<nav::Registration>> found;
 };
 

@@ -156,6 +156,45 @@ TEST(ResumedSession, GoesOnWithTheStrokesThatHangOnAReference) {
   EXPECT_EQ(s.registered_points[0], 10u);
 }
 
+/// Refuses the first two registrations.
+void refuses_all_but_the_new(ScriptedOperation& s) {
+  s.before_registering = [&s, asked = 0]() mutable { s.registration.accepted = ++asked > 2; };
+}
+
+TEST(ResumedSession, GoesOnWithStrokesThatCountAloneAfterARefusal) {
+  MemoryEnv env;
+  {
+    auto s = touched_operation(true);
+    auto log = log_of(*s, env, true);
+    refuses_all_but_the_new(*s);
+    s->registers_first_level();
+    EXPECT_EQ(s->session().current_step(), Step::kDigitize);
+    s->strokes(7);
+    s->says("save");
+    s->does({ClickerAction::kDoubleClick});
+    EXPECT_EQ(s->session().current_step(), Step::kVerify);
+    EXPECT_THAT(s->registered_points, ::testing::ElementsAre(5u, 12u, 7u));
+    EXPECT_EQ(s->session().levels()[0].newest->points.size(), 7u);
+  }
+  ResumedOperation r(env, true);
+  ScriptedOperation& s = *r.operation;
+  s.pair();
+  EXPECT_EQ(step_of(s.says("start")), "verify L4");
+  ASSERT_TRUE(s.session().levels()[0].newest);
+  EXPECT_EQ(s.session().levels()[0].newest->points.size(), 7u);
+}
+
+TEST(ResumedSession, StrokesCountAloneOnlyWhereTheSurgeonTouches) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByEye);
+  refuses_all_but_the_new(s);
+  s.registers_first_level();
+  s.strokes(7);
+  s.says("save");
+  s.does({ClickerAction::kDoubleClick});
+  EXPECT_EQ(s.session().current_step(), Step::kDigitize);
+  EXPECT_THAT(s.registered_points, ::testing::ElementsAre(5u, 12u));
+}
+
 TEST(ResumedSession, DoubtsARegistrationThatWasMadeOfOtherPoints) {
   auto env = killed_in(Step::kTouchLandmark, true);
   std::vector<Record> records = read_log(*env, test::kLogPath)->records;
