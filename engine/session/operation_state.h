@@ -59,7 +59,7 @@ struct RegistrationOutcome {
 struct RegistrationAttempt {
   std::vector<Point<World>> points;
   nav::Registration registration;
-  std::size_t left_out = 0;  ///< points before these, of an attempt that was refused
+  std::size_t left_out = 0;  ///< earlier points of the level, which were refused
 };
 
 /// A tag whose size differs from its tool's definition: larger by `fraction`.

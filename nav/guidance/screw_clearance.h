@@ -51,8 +51,8 @@ struct Clearance {
 [[nodiscard]] std::optional<Clearance> least_clearance(const SurfaceIndex& bone,
                                                        const ScrewCylinder& screw);
 
-/// The same, but empty as soon as it is known not to exceed `above_m`, which mostly few places
-/// tell: for who seeks the best of many screws.
+/// The same, but empty if it does not exceed `above_m`. Usually a few places suffice to tell, so
+/// the best of many screws is found sooner.
 [[nodiscard]] std::optional<Clearance> least_clearance_above(double above_m,
                                                              const SurfaceIndex& bone,
                                                              const ScrewCylinder& screw);

@@ -46,8 +46,8 @@ struct Correlated {
   friend auto operator<=>(const Correlated&, const Correlated&) = default;
 };
 
-/// What the hand does with one pressure, and so has a height of its own: a stroke, an area, or all
-/// that is stroked at about the same time.
+/// What the hand strokes with the same pressure, and so at a height of its own: one stroke, one
+/// area, or whatever is stroked at about the same time.
 enum class Act : std::uint8_t { kStroke, kArea, kWhile };
 
 /// A point of the grid: what the heights consist of, relative to the noise.

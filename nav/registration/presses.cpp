@@ -36,62 +36,47 @@ Pose6 slope_about(Vec3 centre_m, const PressedHeight& at) {
 /// The covariance of the heights of pressed places with the pose and with each other, without the
 /// part that each has alone and without the model's error.
 struct PressCovariance {
-  std::array<double, 36> before{};  ///< of the pose of the strokes, by rows, without the model's
-  Vec3 centre_m;                    ///< of a step of the pose, in the model's frame
+  Covariance6 before;  ///< of the pose of the strokes, without the model's
+  Vec3 centre_m;       ///< of a step of the pose, in the model's frame
   PressModel press;
 
   /// The derivative of a height by a step of the pose: the points move in the model's frame about
   /// the centre.
-  [[nodiscard]] std::array<double, 6> slope(const PressedHeight& at) const;
-  /// The covariance of a height and the pose at the time of its press, including the random walk of
-  /// World.
-  [[nodiscard]] std::array<double, 6> with_pose(const PressedHeight& at) const;
-  [[nodiscard]] double between_m2(const PressedHeight& a, const PressedHeight& b) const;
-  /// The covariance of the pose after World has drifted for this long.
-  [[nodiscard]] std::array<double, 36> walked(double time_s) const;
-};
-
-std::array<double, 6> PressCovariance::slope(const PressedHeight& at) const {
-  std::array<double, 6> out{};
-  Eigen::Map<Pose6>(out.data()) = slope_about(centre_m, at);
-  return out;
-}
-
-std::array<double, 6> PressCovariance::with_pose(const PressedHeight& at) const {
-  const Covariance6 prior = Eigen::Map<const Covariance6>(before.data());
-  Pose6 shared = prior * slope_about(centre_m, at);
-  const double walk_m2 = press.drift_m_per_sqrt_s * press.drift_m_per_sqrt_s * at.time_s;
-  shared.head<3>() += walk_m2 * Eigen::Vector3d(at.up.x, at.up.y, at.up.z);
-  std::array<double, 6> out{};
-  Eigen::Map<Pose6>(out.data()) = shared;
-  return out;
-}
-
-double PressCovariance::between_m2(const PressedHeight& a, const PressedHeight& b) const {
-  const Covariance6 prior = Eigen::Map<const Covariance6>(before.data());
-  const double walk_m2 =
-      press.drift_m_per_sqrt_s * press.drift_m_per_sqrt_s * std::min(a.time_s, b.time_s);
-  // A second press over the same tissue has the same error as the first.
-  const double tissue = std::exp(-(a.at_m - b.at_m).norm() / kSameTissue_m);
-  // What a camera is off along its rays in a view, all places of the view are off alike; presses
-  // have a height in common.
-  const auto seen = [](const PressedHeight& h) { return h.ray.squared_norm() > 0.0; };
-  double common_m2 = 0.0;
-  if (seen(a) && seen(b) && a.view == b.view) {
-    common_m2 = press.ray_sd_m * press.ray_sd_m * a.ray.dot(a.up) * b.ray.dot(b.up);
-  } else if (!seen(a) && !seen(b)) {
-    common_m2 = press.common_sd_m * press.common_sd_m;
+  [[nodiscard]] Pose6 slope(const PressedHeight& at) const { return slope_about(centre_m, at); }
+  /// The variance along each axis of World's walk over this time.
+  [[nodiscard]] double walk_m2(double time_s) const {
+    return press.drift_m_per_sqrt_s * press.drift_m_per_sqrt_s * time_s;
   }
-  return slope_about(centre_m, a).dot(prior * slope_about(centre_m, b)) + walk_m2 * a.up.dot(b.up) +
-         common_m2 + press.sd_m * press.sd_m * tissue;
-}
-
-std::array<double, 36> PressCovariance::walked(double time_s) const {
-  std::array<double, 36> out = before;
-  Eigen::Map<Covariance6>(out.data()).topLeftCorner<3, 3>().diagonal().array() +=
-      press.drift_m_per_sqrt_s * press.drift_m_per_sqrt_s * time_s;
-  return out;
-}
+  /// The covariance of a height and the pose at the time of its press, including World's walk.
+  [[nodiscard]] Pose6 with_pose(const PressedHeight& at) const {
+    Pose6 shared = before * slope(at);
+    shared.head<3>() += walk_m2(at.time_s) * Eigen::Vector3d(at.up.x, at.up.y, at.up.z);
+    return shared;
+  }
+  /// The covariance of two heights.
+  [[nodiscard]] double between_m2(const PressedHeight& a, const PressedHeight& b) const {
+    // A second press over the same tissue has the same error as the first.
+    const double tissue = std::exp(-(a.at_m - b.at_m).norm() / kSameTissue_m);
+    // What a camera is off along its rays in a view, all places of the view are off alike; presses
+    // have a height in common.
+    const auto seen = [](const PressedHeight& h) { return h.ray.squared_norm() > 0.0; };
+    double common_m2 = 0.0;
+    if (seen(a) && seen(b) && a.view == b.view) {
+      common_m2 = press.ray_sd_m * press.ray_sd_m * a.ray.dot(a.up) * b.ray.dot(b.up);
+    } else if (!seen(a) && !seen(b)) {
+      common_m2 = press.common_sd_m * press.common_sd_m;
+    }
+    return slope(a).dot(before * slope(b)) +
+           walk_m2(std::min(a.time_s, b.time_s)) * a.up.dot(b.up) + common_m2 +
+           press.sd_m * press.sd_m * tissue;
+  }
+  /// The covariance of the pose after World has drifted for this long.
+  [[nodiscard]] Covariance6 walked(double time_s) const {
+    Covariance6 out = before;
+    out.topLeftCorner<3, 3>().diagonal().array() += walk_m2(time_s);
+    return out;
+  }
+};
 
 /// What a model's error of SD 1 and of one length does to heights and pose.
 struct ByField {
@@ -140,8 +125,8 @@ Heights heights_of(const PressProblem& problem, const Pose6& step) {
     const double height_m =
         nearest ? sign * nearest->distance_m : std::numeric_limits<double>::quiet_NaN();
     out.above_m(i) = height_m - prior.press.height_m - prior.press.tip_radius_m -
-                     pose_of(prior.slope(out.at.back())).dot(step);
-    out.shared.row(i) = pose_of(prior.with_pose(out.at.back())).transpose();
+                     prior.slope(out.at.back()).dot(step);
+    out.shared.row(i) = prior.with_pose(out.at.back()).transpose();
     for (Eigen::Index k = 0; k <= i; ++k) {
       const PressedHeight& other = out.at[static_cast<std::size_t>(k)];
       out.rest_m2(i, k) = out.rest_m2(k, i) = prior.between_m2(out.at.back(), other);
@@ -415,10 +400,10 @@ std::optional<PressFit> fit_presses(const VertebraModel& model, const Registrati
   }
   Eigen::Map<Covariance6>(out.before.data()).topLeftCorner<3, 3>().diagonal().array() +=
       press.moved_sd_m * press.moved_sd_m;
-  const PressCovariance prior{out.before, out.centre_m, press};
-  const auto now = prior.walked(out.now_s);
-  PressProblem problem{model, strokes.world_from_vertebra.inverse(),     places,
-                       prior, Eigen::Map<const Covariance6>(now.data()), {}};
+  const PressCovariance prior{Eigen::Map<const Covariance6>(out.before.data()), out.centre_m,
+                              press};
+  PressProblem problem{
+      model, strokes.world_from_vertebra.inverse(), places, prior, prior.walked(out.now_s), {}};
   for (const ModelErrorHypothesis& by : hypotheses_of(press)) {
     const double length_m = by.error.length_m;
     if (std::none_of(problem.fields.begin(), problem.fields.end(),
@@ -436,7 +421,7 @@ std::optional<PressFit> fit_presses(const VertebraModel& model, const Registrati
 
 std::vector<std::array<double, 36>> PressFit::with(std::span<const PressedHeight> next,
                                                    const PressModel& press) const {
-  const PressCovariance prior{before, centre_m, press};
+  const PressCovariance prior{Eigen::Map<const Covariance6>(before.data()), centre_m, press};
   const FieldCovariance field(strokes, likeliest.length_m, centre_m);
   const double model_m2 = likeliest.sd_m * likeliest.sd_m;
   const auto n = static_cast<Eigen::Index>(heights.size());
@@ -448,10 +433,7 @@ std::vector<std::array<double, 36>> PressFit::with(std::span<const PressedHeight
   std::vector<std::array<double, 36>> out;
   for (const PressedHeight& one : next) {
     const std::array<double, 6> place = field.with_place(one.at_m);
-    const std::array<double, 6> with_pose = prior.with_pose(one);
-    const std::array<double, 6> by_field = field.with_pose(one, place);
-    Pose6 gain = Eigen::Map<const Pose6>(with_pose.data()) +
-                 model_m2 * Eigen::Map<const Pose6>(by_field.data());
+    Pose6 gain = prior.with_pose(one) + model_m2 * pose_of(field.with_pose(one, place));
     double variance_m2 = prior.between_m2(one, one) + one.sd_m * one.sd_m +
                          model_m2 * field.between(one, place, one, place);
     if (n > 0) {

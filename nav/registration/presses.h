@@ -140,10 +140,10 @@ struct JoinedPlaces {
 };
 
 /// Includes pressed places, which `fit_presses` has fitted with the same model and strokes, in a
-/// registration: the pose is that of the bone, by strokes and places
-/// together, at the time the last place was pressed, and the uncertainty includes the model's own
-/// error. `accepted`, `reasons` and `provisional` are judged again; everything else measured on the
-/// strokes stays. Empty without places. `targets` as for the registration.
+/// registration: the pose is that of the bone, by strokes and places together, at the time the last
+/// place was pressed, and the uncertainty includes the model's own error. `accepted`, `reasons` and
+/// `provisional` are judged again; everything else measured on the strokes stays. Empty without
+/// places. `targets` as for the registration.
 [[nodiscard]] std::optional<JoinedPlaces> join_places(const VertebraModel& model,
                                                       const Registration& strokes,
                                                       const PressFit& fit, const PressModel& press,

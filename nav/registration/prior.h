@@ -21,11 +21,11 @@ struct Prior {
   double unevenness_log_sd = 1.0;
   /// Lengths over which its thickness changes, equally likely, m. A facet to a vertebra.
   std::array<double, 3> tissue_lengths_m{0.008, 0.020, 0.050};
-  /// Share of registrations in which each stroke has a height of its own; how different, as for
-  /// tissue. A guess.
+  /// Share of registrations in which acts of the hand have heights of their own (`Act`); how
+  /// different, as for tissue. A guess.
   double uneven_hand_share = 0.5;
-  /// Or the hand changes its pressure within this time, s: most of all where it strokes again after
-  /// a refusal. A guess. Doubled: nothing.
+  /// Time over which the correlation of heights falls to 1/e where the hand's pressure changes
+  /// slowly, as it does from one attempt to the next, s. A guess. Doubled: nothing.
   double while_s = 30.0;
 
   // The model is not the bone.

@@ -97,7 +97,26 @@ void drop_isolated_cells(std::vector<Cell>& cells) {
 class SpreadPoints {
  public:
   /// Leaves out points farther than `reach_m` from the middle.
-  SpreadPoints(std::span<const Vec3> points_m, double reach_m);
+  SpreadPoints(std::span<const Vec3> points_m, double reach_m) {
+    if (points_m.empty()) {
+      return;
+    }
+    const Vec3 middle = middle_of(points_m);
+    std::vector<Cell> cells = cells_around(middle, points_m, reach_m);
+    drop_isolated_cells(cells);
+    Vec3 mean;
+    for (const Cell& cell : cells) {
+      mean += cell.point / static_cast<double>(cells.size());
+    }
+    centre_m_ = middle + mean;
+    for (const Cell& cell : cells) {
+      if ((cell.point - mean).norm() < reach_m) {
+        points_m_.push_back(cell.point - mean);
+      }
+    }
+    constexpr std::size_t kOrdered = 150;
+    order_by_distance(points_m_, kOrdered);
+  }
 
   [[nodiscard]] Vec3 centre_m() const { return centre_m_; }
   [[nodiscard]] std::span<const Vec3> centred_m() const { return points_m_; }
@@ -109,27 +128,6 @@ class SpreadPoints {
   Vec3 centre_m_;
   std::vector<Vec3> points_m_;
 };
-
-SpreadPoints::SpreadPoints(std::span<const Vec3> points_m, double reach_m) {
-  if (points_m.empty()) {
-    return;
-  }
-  const Vec3 middle = middle_of(points_m);
-  std::vector<Cell> cells = cells_around(middle, points_m, reach_m);
-  drop_isolated_cells(cells);
-  Vec3 mean;
-  for (const Cell& cell : cells) {
-    mean += cell.point / static_cast<double>(cells.size());
-  }
-  centre_m_ = middle + mean;
-  for (const Cell& cell : cells) {
-    if ((cell.point - mean).norm() < reach_m) {
-      points_m_.push_back(cell.point - mean);
-    }
-  }
-  constexpr std::size_t kOrdered = 150;
-  order_by_distance(points_m_, kOrdered);
-}
 
 // ---------------------------------------------------------------------------------------------
 // Steps of a pose in the distance field.
@@ -199,55 +197,51 @@ class FieldStep {
   FieldStep(const DistanceField& field, double tip_radius_m)
       : field_(&field), tip_radius_m_(tip_radius_m) {}
   /// False when the points within `width_m` leave the pose undetermined.
-  bool improve(std::span<const Vec3> centred_m, double width_m, CentredPose& pose) const;
+  bool improve(std::span<const Vec3> centred_m, double width_m, CentredPose& pose) const {
+    StepSums sums;
+    const double inverse_width2 = 1.0 / (width_m * width_m);
+    for (const Vec3& p : centred_m) {
+      const Vec3 lever_arm = pose.rotation * p;
+      DistanceField::Value value;
+      if (!field_->at(lever_arm + pose.centre_m, value)) {
+        continue;
+      }
+      const double r = value.distance_m - tip_radius_m_;
+      const double t = 1.0 - r * r * inverse_width2;
+      if (!(t > 0.0)) {
+        continue;
+      }
+      sums.add(lever_arm, value.gradient, r, t * t);
+    }
+    if (sums.used < 6) {
+      return false;
+    }
+    const Vector6 step = damped_step(sums);
+    if (!step.allFinite()) {
+      return false;
+    }
+    move_by(step, pose);
+    return true;
+  }
+
   /// Mean of the squared distances, truncated at `width_m`.
   [[nodiscard]] double cost_m2(std::span<const Vec3> centred_m, double width_m,
-                               const CentredPose& pose) const;
+                               const CentredPose& pose) const {
+    double sum = 0.0;
+    for (const Vec3& p : centred_m) {
+      DistanceField::Value value;
+      const double r = field_->at(pose.rotation * p + pose.centre_m, value)
+                           ? std::min(std::abs(value.distance_m - tip_radius_m_), width_m)
+                           : width_m;
+      sum += r * r;
+    }
+    return sum / static_cast<double>(std::max<std::size_t>(1, centred_m.size()));
+  }
 
  private:
   const DistanceField* field_;
   double tip_radius_m_;
 };
-
-bool FieldStep::improve(std::span<const Vec3> centred_m, double width_m, CentredPose& pose) const {
-  StepSums sums;
-  const double inverse_width2 = 1.0 / (width_m * width_m);
-  for (const Vec3& p : centred_m) {
-    const Vec3 lever_arm = pose.rotation * p;
-    DistanceField::Value value;
-    if (!field_->at(lever_arm + pose.centre_m, value)) {
-      continue;
-    }
-    const double r = value.distance_m - tip_radius_m_;
-    const double t = 1.0 - r * r * inverse_width2;
-    if (!(t > 0.0)) {
-      continue;
-    }
-    sums.add(lever_arm, value.gradient, r, t * t);
-  }
-  if (sums.used < 6) {
-    return false;
-  }
-  const Vector6 step = damped_step(sums);
-  if (!step.allFinite()) {
-    return false;
-  }
-  move_by(step, pose);
-  return true;
-}
-
-double FieldStep::cost_m2(std::span<const Vec3> centred_m, double width_m,
-                          const CentredPose& pose) const {
-  double sum = 0.0;
-  for (const Vec3& p : centred_m) {
-    DistanceField::Value value;
-    const double r = field_->at(pose.rotation * p + pose.centre_m, value)
-                         ? std::min(std::abs(value.distance_m - tip_radius_m_), width_m)
-                         : width_m;
-    sum += r * r;
-  }
-  return sum / static_cast<double>(std::max<std::size_t>(1, centred_m.size()));
-}
 
 // ---------------------------------------------------------------------------------------------
 // Every pose.
@@ -596,7 +590,6 @@ std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
   SurfaceFit fit;
   fit.pose = start;
   fit.with_standoff = options.with_standoff;
-  fit.standoff_m = options.first_standoff_m;
   fit.points.assign(points_m.size(), {{}, {}, {kNowhere_m, 0.0, 0.0}, 0.0, 0.0});
   for (std::size_t i = 0; i < std::min(options.near_m.size(), points_m.size()); ++i) {
     fit.points[i].nearest_m = options.near_m[i];

@@ -53,7 +53,6 @@ struct SurfaceFitOptions {
   /// Whether a mean height of the tip above the bone (soft tissue, a light hand) is one of the
   /// unknowns: surfaces that face different ways distinguish it from a translation.
   bool with_standoff = false;
-  double first_standoff_m = 0.0;  ///< starting value; fixed if it is not an unknown
   /// For each point, any place on the surface, which limits the first search. Only saves time.
   /// Empty: none known.
   std::span<const Vec3> near_m{};

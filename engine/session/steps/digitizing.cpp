@@ -30,14 +30,11 @@ RegistrationJob Registering::now(RegistrationJob job) const {
     return found && (found->accepted || found->provisional);
   };
   job.found = register_from(0);
-  const std::size_t refused = std::exchange(job.after_refusal, 0);
-  if (refused > 0 && refused < job.points.size() && !passes(*job.found)) {
-    Result<nav::Registration> alone = register_from(refused);
+  if (job.refused > 0 && job.refused < job.points.size() && !passes(*job.found)) {
+    Result<nav::Registration> alone = register_from(job.refused);
     if (passes(alone)) {
       job.found = std::move(alone);
-      job.after_refusal = refused;
-      job.points.erase(job.points.begin(),
-                       job.points.begin() + static_cast<std::ptrdiff_t>(refused));
+      job.left_out = job.refused;
     }
   }
   return job;
@@ -218,12 +215,10 @@ std::optional<Event> Digitizing::register_level(SessionState& work, Timestamp ti
                       digitizer.saved_shafts(),
                       digitizer.saved_times(),
                       common,
-                      time,
-                      0,
-                      {}};
+                      time};
   if (level.newest && work.method.verification == Verification::kByTouch) {
     const std::vector<Point<World>>& before = level.newest->points;
-    job.after_refusal =
+    job.refused =
         static_cast<std::size_t>(std::ranges::mismatch(before, job.points).in1 - before.begin());
   }
   if (work.waits) {
@@ -252,7 +247,8 @@ Event Digitizing::take(SessionState& work, RegistrationJob job, Timestamp time) 
   } else {
     outcome.result = *result;
     outcome.provisional = result->provisional && work.method.verification == Verification::kByTouch;
-    level.newest = RegistrationAttempt{std::move(job.points), *result, job.after_refusal};
+    const auto first = job.points.begin() + static_cast<std::ptrdiff_t>(job.left_out);
+    level.newest = RegistrationAttempt{{first, job.points.end()}, *result, job.left_out};
   }
   if (outcome.passed()) {
     level.registration = *result;

@@ -25,10 +25,11 @@ struct RegistrationJob {
   std::vector<Timestamp> times;
   nav::CommonErrors common;
   Timestamp asked{};
-  /// How many of the points had been refused before. Where all are refused again, those that follow
-  /// are tried alone: whoever was told to scrape to the bone holds the pointer otherwise.
-  std::size_t after_refusal = 0;
+  /// How many of the points were refused before. If all of them are refused again, those that
+  /// follow are tried alone: a surgeon who was told to scrape to the bone presses harder.
+  std::size_t refused = 0;
   std::optional<Result<nav::Registration>> found;
+  std::size_t left_out = 0;  ///< points before those of which it was found
 };
 
 /// Computes registrations beside the frame loop, one after the other. One thread at a time.

@@ -184,7 +184,7 @@ TEST(ResumedSession, GoesOnWithStrokesThatCountAloneAfterARefusal) {
   EXPECT_EQ(s.session().levels()[0].newest->points.size(), 7u);
 }
 
-TEST(ResumedSession, StrokesCountAloneOnlyWhereTheSurgeonTouches) {
+TEST(StrokesAfterARefusal, CountAloneOnlyWhereTheSurgeonTouches) {
   ScriptedOperation s({"L4"}, {}, Verification::kByEye);
   refuses_all_but_the_new(s);
   s.registers_first_level();
