@@ -132,51 +132,62 @@ double share_above(const std::vector<double>& ascending, double limit) {
   return static_cast<double>(above) / static_cast<double>(ascending.size());
 }
 
-/// Where the mirror image may lie: as the bone does, or shifted or turned to a side, since a
+/// Where the mirror image lies best: as the bone does, or shifted or turned to a side, since a
 /// crooked bone's mirror image lies askew.
-Transform<World, Vertebra> mirrored_start(const VertebraModel& model, const Cloud& points,
+Transform<World, Vertebra> mirrored_start(const VertebraModel& model,
+                                          const Observations& observations,
                                           const Transform<World, Vertebra>& pose) {
   constexpr double kAside_m = 0.003;
   constexpr double kTurned_rad = 0.15;
   const auto swapped = [](Vec3 v) { return Vec3{-v.x, v.y, v.z}; };
-  const CentredPose there = centred(pose, points.centre_m);
-  std::vector<Vec3> mirrored_m;
-  for (const Vec3& p : points.few_m) {
-    mirrored_m.push_back(swapped(there.rotation * p));
-  }
-  // The bone's own middle is where the image is its own.
+  // The points are mirrored in the place of the bone, about its own middle, where the image is its
+  // own; there they are put onto the bone.
   const Vec3 across{2.0 * model.reachable_axes().centre_m.x, 0.0, 0.0};
-  const CentredPose same{Mat3::identity(), swapped(there.centre_m) + across};
-  std::vector<CentredPose> starts{same};
+  const auto from_world = pose.inverse();
+  std::vector<Point<World>> mirrored;
+  Vec3 centre_m;
+  for (const StrokePoint& p : observations.strokes) {
+    mirrored.push_back({swapped((from_world * p.tip).v) + across});
+    centre_m += mirrored.back().v / static_cast<double>(observations.strokes.size());
+  }
+  std::vector<Transform<World, Vertebra>> starts(1);
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
       Vec3 along;
       along[axis] = side;
-      starts.push_back({same.rotation, same.centre_m + kAside_m * along});
-      starts.push_back({rotation_from_vector(kTurned_rad * along), same.centre_m});
+      const Mat3 turned = rotation_from_vector(kTurned_rad * along);
+      starts.push_back({Mat3::identity(), kAside_m * along});
+      starts.push_back({turned, centre_m - turned * centre_m});
     }
   }
-  SurfaceFitOptions quick;
-  quick.max_iterations = 6;
-  CentredPose best = same;
-  double least_m2 = std::numeric_limits<double>::infinity();
-  for (const CentredPose& start : starts) {
-    if (const auto fit = fit_to_bone(model, mirrored_m, start, quick)) {
-      const double cost_m2 = truncated_cost_m2(*fit, 0.003);
-      if (cost_m2 < least_m2) {
-        least_m2 = cost_m2;
-        best = fit->pose;
-      }
+  FoundPose best{{}, std::numeric_limits<double>::infinity()};
+  for (const Transform<World, Vertebra>& start : starts) {
+    const FoundPose found =
+        refined_pose(model.search_field(), mirrored, start, observations.tip_radius_m);
+    if (found.cost_m2 < best.cost_m2) {
+      best = found;
     }
   }
   // Swapped back on both sides, it is a rotation of the points onto the mirrored bone.
-  Mat3 across_x = Mat3::identity();
-  across_x.m[0][0] = -1.0;
-  const Mat3 rotation = across_x * best.rotation * across_x * there.rotation;
-  return world_from({orthonormalized(rotation), swapped(best.centre_m)}, points.centre_m);
+  const auto onto_bone = best.world_from_vertebra.inverse();
+  Mat3 swap = Mat3::identity();
+  swap.m[0][0] = -1.0;
+  const Transform<Vertebra, Vertebra> onto_image(
+      orthonormalized(swap * onto_bone.rotation() * swap),
+      swapped((onto_bone * Point<World>{across}).v));
+  return (onto_image * from_world).inverse();
 }
 
 }  // namespace
+
+double apart_m(const Transform<World, Vertebra>& a, const Transform<World, Vertebra>& b,
+               std::span<const Point<Vertebra>> targets) {
+  double most = 0.0;
+  for (const Point<Vertebra>& target : targets) {
+    most = std::max(most, (a * target - b * target).norm());
+  }
+  return most;
+}
 
 double shaft_collision_fraction(const Observations& observations, const VertebraModel& model,
                                 const Transform<World, Vertebra>& world_from_vertebra,
@@ -225,28 +236,28 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   }
   const Error no_pose =
       refused({translatable("registration finds no pose: the strokes fit no part of the model")});
-  const Cloud cloud = cloud_of(tips);
   std::vector<Tried> tried;
   const auto add_poses = [&](Explanation::Kind kind, const std::string& level,
                              const VertebraModel& of, std::size_t most) {
-    const auto found = find_candidates(
-        of, cloud,
-        kind == Explanation::Kind::kAnswer ? question.targets : std::vector<Point<Vertebra>>{},
-        observations.tip_radius_m);
-    for (std::size_t i = 0; i < std::min(most, found.size()); ++i) {
+    PoseSearchOptions search;
+    search.most = most;
+    search.tip_radius_m = observations.tip_radius_m;
+    const auto found = search_poses(of.search_field(), tips, search);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      // Beyond the second, a pose that fits far worse is no rival; the field is right to tenths of
+      // a millimetre.
+      constexpr double kFarWorseCost = 3.0;
+      constexpr double kField_m = 0.0005;
+      if (i > 1 &&
+          found[i].cost_m2 > kFarWorseCost * std::max(found[0].cost_m2, kField_m * kField_m)) {
+        break;
+      }
       Tried t;
       t.kind = kind;
       t.level = level;
       t.model = &of;
-      t.start = world_from(found[i].fit.pose, cloud.centre_m);
-      // Starts that are so near to each other end at the same pose.
-      constexpr double kSameStart_m = 0.001;
-      const bool is_new = std::none_of(tried.begin(), tried.end(), [&](const Tried& other) {
-        return other.model == &of && apart_m(other.start, t.start, question.targets) < kSameStart_m;
-      });
-      if (is_new) {
-        tried.push_back(t);
-      }
+      t.start = found[i].world_from_vertebra;
+      tried.push_back(t);
     }
   };
   add_poses(Explanation::Kind::kAnswer, {}, model, 8);
@@ -293,7 +304,7 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   mirror.kind = Explanation::Kind::kMirror;
   mirror.log_odds = std::log(prior.mirror_odds);
   mirror.model = &model;
-  mirror.start = mirrored_start(model, cloud, tried[0].found->world_from_vertebra);
+  mirror.start = mirrored_start(model, observations, tried[0].found->world_from_vertebra);
   tried.push_back(mirror);
   for (std::size_t i = own_poses; i < tried.size(); ++i) {
     tried[i].look(observations, prior, Effort::kRough, rough, tried[0].log_weight() - kFarWorse);

@@ -25,6 +25,14 @@ struct Question {
 
 [[nodiscard]] RegistrationLimits limits_of(const Question& question);
 
+/// Two poses that put every target within this distance count as the same.
+inline constexpr double kSameAtTargets_m = 0.002;
+
+/// How far apart two poses put the farthest of the targets.
+[[nodiscard]] double apart_m(const Transform<World, Vertebra>& a,
+                             const Transform<World, Vertebra>& b,
+                             std::span<const Point<Vertebra>> targets);
+
 /// Fraction of the points at which, in this pose, the pointer's shaft would have gone through bone:
 /// the space that the pointer occupied must be free. A point whose shaft is not known does not
 /// count. 0 without points. Looks at a few hundred of them.

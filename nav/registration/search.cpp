@@ -21,12 +21,12 @@ constexpr double kSpreadCell_m = 0.004;
 constexpr double kLonelyFraction = 0.15;
 
 /// The median of each coordinate, which outliers hardly move.
-Vec3 middle_of(std::span<const Vec3> points_m) {
+Vec3 middle_of(std::span<const Point<World>> points) {
   Vec3 middle;
-  std::vector<double> values(points_m.size());
+  std::vector<double> values(points.size());
   for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < points_m.size(); ++i) {
-      values[i] = points_m[i][axis];
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      values[i] = points[i].v[axis];
     }
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), at, values.end());
@@ -59,10 +59,10 @@ struct Cell {
 };
 
 /// One point per cell within `reach_m` of the middle, in the order of the cells' places.
-std::vector<Cell> cells_around(Vec3 middle, std::span<const Vec3> points_m, double reach_m) {
+std::vector<Cell> cells_around(Vec3 middle, std::span<const Point<World>> points, double reach_m) {
   std::map<std::array<long, 3>, Cell> by_place;
-  for (const Vec3& p : points_m) {
-    const Vec3 q = p - middle;
+  for (const Point<World>& p : points) {
+    const Vec3 q = p.v - middle;
     if (!(q.norm() < reach_m)) {
       continue;
     }
@@ -97,12 +97,12 @@ void drop_isolated_cells(std::vector<Cell>& cells) {
 class SpreadPoints {
  public:
   /// Leaves out points farther than `reach_m` from the middle.
-  SpreadPoints(std::span<const Vec3> points_m, double reach_m) {
-    if (points_m.empty()) {
+  SpreadPoints(std::span<const Point<World>> points, double reach_m) {
+    if (points.empty()) {
       return;
     }
-    const Vec3 middle = middle_of(points_m);
-    std::vector<Cell> cells = cells_around(middle, points_m, reach_m);
+    const Vec3 middle = middle_of(points);
+    std::vector<Cell> cells = cells_around(middle, points, reach_m);
     drop_isolated_cells(cells);
     Vec3 mean;
     for (const Cell& cell : cells) {
@@ -140,6 +140,12 @@ constexpr double kLongestStep_m = 0.008;
 constexpr double kWidest_rad = 0.3;
 /// Damping relative to the trace: keeps directions that nothing constrains from running away.
 constexpr double kDamping = 1e-4;
+
+/// Vertebra from points about their centre: the position of the centre, and the rotation.
+struct CentredPose {
+  Mat3 rotation = Mat3::identity();
+  Vec3 centre_m;
+};
 
 /// The normal equations of a step, one point at a time. Sums of the lower triangle by rows, then of
 /// the right-hand side: plain arrays, since most of the search's time is spent here.
@@ -427,22 +433,19 @@ void refine(const SearchField& vertebra, std::span<const Vec3> points_m, const S
   scored.cost = step.cost_m2(points_m, stage.to_width_m, scored.pose);
 }
 
-}  // namespace
+constexpr Stage kLast{8, 0.005, 0.003};
 
 Transform<World, Vertebra> world_from(const CentredPose& pose, Vec3 points_centre_m) {
   const Mat3 back = pose.rotation.transposed();
   return {back, points_centre_m - back * pose.centre_m};
 }
 
-CentredPose centred(const Transform<World, Vertebra>& pose, Vec3 points_centre_m) {
-  const Transform<Vertebra, World> inverse = pose.inverse();
-  return {inverse.rotation(), (inverse * Point<World>{points_centre_m}).v};
-}
+}  // namespace
 
 std::vector<FoundPose> search_poses(const SearchField& vertebra,
-                                    std::span<const Vec3> points_in_world_m,
+                                    std::span<const Point<World>> points,
                                     const PoseSearchOptions& options) {
-  const SpreadPoints spread(points_in_world_m, SearchField::kReach_m);
+  const SpreadPoints spread(points, SearchField::kReach_m);
   if (spread.centred_m().size() < 6) {
     return {};
   }
@@ -465,7 +468,7 @@ std::vector<FoundPose> search_poses(const SearchField& vertebra,
   keep_best(poses, kKeptThen);
   drop_neighbours(poses, options.same_m, options.same_rad, kKeptLast);
   for (Scored& pose : poses) {
-    refine(vertebra, spread.first(kPointsLast), {8, 0.005, 0.003}, options.tip_radius_m, pose);
+    refine(vertebra, spread.first(kPointsLast), kLast, options.tip_radius_m, pose);
   }
   keep_best(poses, kKeptLast);
   drop_neighbours(poses, options.same_m, options.same_rad, options.most);
@@ -476,272 +479,24 @@ std::vector<FoundPose> search_poses(const SearchField& vertebra,
   return found;
 }
 
-namespace {
-
-// ---------------------------------------------------------------------------------------------
-// On the surface itself.
-
-/// Pose and standoff.
-using Matrix7 = Eigen::Matrix<double, 7, 7>;
-using Vector7 = Eigen::Matrix<double, 7, 1>;
-
-/// Tukey's biweight, 87 % efficient at this many SDs.
-constexpr double kTukeySd = 3.6;
-/// SD from the median of absolute values, for a normal distribution.
-constexpr double kSdByMedian = 1.4826;
-constexpr double kRelativeDamping = 1e-9;
-constexpr double kNowhere_m = 1e3;
-/// Allowance for rounding, so that a place at exactly the same distance is found.
-constexpr double kRoundingAllowance = 1.0 + 1e-12;
-
-void measure(const SurfaceIndex& surface, std::span<const Vec3> points_m, double farthest_m,
-             double tip_radius_m, SurfaceFit& fit) {
-  const double height_m = tip_radius_m + fit.standoff_m;
-  for (std::size_t i = 0; i < points_m.size(); ++i) {
-    FittedPoint& out = fit.points[i];
-    out.lever_arm_m = fit.pose.rotation * points_m[i];
-    const Vec3 query = out.lever_arm_m + fit.pose.centre_m;
-    // The nearest place is no farther than the previous nearest one.
-    const double within_m =
-        std::min(farthest_m, (query - out.nearest_m).norm() * kRoundingAllowance);
-    const auto near = surface.nearest(query, within_m);
-    if (!near) {
-      out.residual_m = farthest_m;
-      out.gradient = {};
-      out.nearest_m = {kNowhere_m, 0.0, 0.0};
-      continue;
-    }
-    out.nearest_m = near->point_m;
-    const Vec3 off = query - near->point_m;
-    const double side = off.dot(near->normal) < 0.0 ? -1.0 : 1.0;
-    out.residual_m = side * near->distance_m - height_m;
-    // On the surface itself, only the face gives a direction.
-    out.gradient = near->distance_m > 1e-7 ? (side / near->distance_m) * off : near->normal;
-  }
-}
-
-double spread_m(const SurfaceFit& fit, std::vector<double>& scratch) {
-  scratch.clear();
-  for (const FittedPoint& p : fit.points) {
-    scratch.push_back(std::abs(p.residual_m));
-  }
-  const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
-  std::nth_element(scratch.begin(), middle, scratch.end());
-  return kSdByMedian * *middle;
-}
-
-void weigh(SurfaceFit& fit) {
-  for (FittedPoint& p : fit.points) {
-    const double z = p.residual_m / (kTukeySd * fit.noise_m);
-    const double t = std::max(0.0, 1.0 - z * z);
-    p.weight = t * t;
-  }
-}
-
-/// The length of the step, or nothing when the pose is undetermined.
-std::optional<double> step(SurfaceFit& fit) {
-  Matrix7 normal = Matrix7::Zero();
-  Vector7 right = Vector7::Zero();
-  for (const FittedPoint& p : fit.points) {
-    if (!(p.weight > 0.0)) {
-      continue;
-    }
-    const Vec3 by_rotation = p.lever_arm_m.cross(p.gradient);
-    Vector7 j;
-    j << p.gradient.x, p.gradient.y, p.gradient.z, by_rotation.x, by_rotation.y, by_rotation.z,
-        -1.0;
-    normal.selfadjointView<Eigen::Lower>().rankUpdate(j, p.weight);
-    right -= p.weight * p.residual_m * j;
-  }
-  const double translation_damping = kRelativeDamping * normal.topLeftCorner<3, 3>().trace();
-  const double rotation_damping = kRelativeDamping * normal.block<3, 3>(3, 3).trace();
-  for (int k = 0; k < 6; ++k) {
-    normal(k, k) += k < 3 ? translation_damping : rotation_damping;
-  }
-  if (!fit.with_standoff) {
-    normal.row(6).setZero();
-    normal(6, 6) = 1.0;
-    right(6) = 0.0;
-  }
-  const Eigen::LDLT<Matrix7> solver(normal.selfadjointView<Eigen::Lower>());
-  const Vector7 x = solver.solve(right);
-  if (solver.info() != Eigen::Success || !x.allFinite() || !(normal.trace() > 1.0)) {
-    return std::nullopt;
-  }
-  constexpr double kLongest_m = 0.005;
-  constexpr double kLever_m = 0.03;
-  const double length = x.head<3>().norm() + kLever_m * x.segment<3>(3).norm() + std::abs(x(6));
-  const double scale = std::min(1.0, kLongest_m / std::max(length, 1e-12));
-  fit.pose.rotation =
-      orthonormalized(rotation_from_vector(scale * Vec3{x(3), x(4), x(5)}) * fit.pose.rotation);
-  fit.pose.centre_m += scale * Vec3{x(0), x(1), x(2)};
-  fit.standoff_m += scale * x(6);
-  return length;
-}
-
-}  // namespace
-
-std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
-                                         std::span<const Vec3> points_m, const CentredPose& start,
-                                         const SurfaceFitOptions& options) {
-  if (points_m.size() < 6) {
-    return std::nullopt;
-  }
-  SurfaceFit fit;
-  fit.pose = start;
-  fit.with_standoff = options.with_standoff;
-  fit.points.assign(points_m.size(), {{}, {}, {kNowhere_m, 0.0, 0.0}, 0.0, 0.0});
-  for (std::size_t i = 0; i < std::min(options.near_m.size(), points_m.size()); ++i) {
-    fit.points[i].nearest_m = options.near_m[i];
-  }
-  std::vector<double> scratch;
-  for (bool last = false;; ++fit.iterations) {
-    measure(surface, points_m, options.farthest_m, options.tip_radius_m, fit);
-    fit.noise_m = std::clamp(spread_m(fit, scratch), options.least_noise_m, options.most_noise_m);
-    weigh(fit);
-    if (last || fit.iterations == options.max_iterations) {
-      return fit;
-    }
-    const auto length = step(fit);
-    if (!length) {
-      return std::nullopt;
-    }
-    last = *length < options.last_step_m;
-  }
-}
-
-double truncated_cost_m2(const SurfaceFit& fit, double width_m) {
-  double sum = 0.0;
-  for (const FittedPoint& p : fit.points) {
-    const double r = std::min(std::abs(p.residual_m), width_m);
-    sum += r * r;
-  }
-  return sum / static_cast<double>(fit.points.size());
-}
-
-namespace {
-
-// ---------------------------------------------------------------------------------------------
-// What could explain the points.
-
-/// Enough points to tell candidates apart.
-constexpr std::size_t kPointsToCompare = 300;
-constexpr double kFieldNoise_m = 0.0005;
-/// The field is accurate to tenths of a millimetre: a pose whose cost in the field is this many
-/// times the best one's is not a rival.
-constexpr double kFarFromBestInField = 3.0;
-/// Squared distances are truncated at this many SDs of the noise, but not below that distance.
-constexpr double kTruncateSd = 3.0;
-constexpr double kTruncateLeast_m = 0.0009;
-/// Points that scatter by more than this, more than tracking explains, were stroked with a light
-/// hand or over soft tissue. Their mean height above the bone is then fitted as well, in the bone
-/// never.
-constexpr double kLooseHand_m = 0.0005;
-constexpr double kHighest_m = 0.004;
-
-SurfaceFitOptions quick_fit(double tip_radius_m) {
-  SurfaceFitOptions options;
-  options.tip_radius_m = tip_radius_m;
-  options.max_iterations = 6;
-  options.last_step_m = 2e-5;
-  return options;
-}
-
-double least_noise_m(std::span<const Candidate> candidates) {
-  double least_m = std::numeric_limits<double>::infinity();
-  for (const Candidate& c : candidates) {
-    least_m = std::min(least_m, c.fit.noise_m);
-  }
-  return least_m;
-}
-
-/// Fits the candidates again with the mean height of the tip above the bone unknown.
-void refit_with_standoff(const VertebraModel& model, const Cloud& cloud, SurfaceFitOptions options,
-                         std::span<Candidate> candidates) {
-  options.with_standoff = true;
-  for (Candidate& c : candidates) {
-    if (auto fit = fit_to_surface(model.reachable_surface(), cloud.few_m, c.fit.pose, options);
-        fit && fit->standoff_m > 0.0 && fit->standoff_m < kHighest_m) {
-      c.fit = std::move(*fit);
-    }
-  }
-}
-
-/// The poses found in the field, fitted, in the order found.
-std::vector<Candidate> fitted_poses(const VertebraModel& model, const Cloud& cloud,
-                                    std::span<const Point<Vertebra>> targets,
-                                    const SurfaceFitOptions& options) {
-  PoseSearchOptions search;
-  search.tip_radius_m = options.tip_radius_m;
-  const auto poses = search_poses(model.search_field(), cloud.in_world_m, search);
-  std::vector<Candidate> found;
-  bool rivals = false;
-  for (const FoundPose& pose : poses) {
-    const double least_cost_m2 = std::max(poses[0].cost_m2, kFieldNoise_m * kFieldNoise_m);
-    if (rivals && pose.cost_m2 > kFarFromBestInField * least_cost_m2) {
-      break;
-    }
-    rivals =
-        rivals || targets.empty() ||
-        apart_m(pose.world_from_vertebra, poses[0].world_from_vertebra, targets) > kSameAtTargets_m;
-    const CentredPose start = centred(pose.world_from_vertebra, cloud.centre_m);
-    if (auto fit = fit_to_bone(model, cloud.few_m, start, options)) {
-      found.push_back({std::move(*fit), 0.0});
-    }
-  }
-  return found;
-}
-
-}  // namespace
-
-Cloud cloud_of(std::span<const Point<World>> points) {
-  Cloud cloud;
-  for (const Point<World>& p : points) {
-    cloud.in_world_m.push_back(p.v);
-  }
-  cloud.centre_m = SpreadPoints(cloud.in_world_m, SearchField::kReach_m).centre_m();
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kPointsToCompare);
+FoundPose refined_pose(const SearchField& vertebra, std::span<const Point<World>> points,
+                       const Transform<World, Vertebra>& start, double tip_radius_m) {
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kPointsLast);
+  std::vector<Vec3> few_m;
   for (std::size_t i = 0; i < points.size(); i += step) {
-    cloud.few_m.push_back(points[i].v - cloud.centre_m);
+    few_m.push_back(points[i].v);
   }
-  return cloud;
-}
-
-double apart_m(const Transform<World, Vertebra>& a, const Transform<World, Vertebra>& b,
-               std::span<const Point<Vertebra>> targets) {
-  double most = 0.0;
-  for (const Point<Vertebra>& target : targets) {
-    most = std::max(most, (a * target - b * target).norm());
+  Vec3 centre_m;
+  for (const Vec3& p : few_m) {
+    centre_m += p / static_cast<double>(few_m.size());
   }
-  return most;
-}
-
-std::optional<SurfaceFit> fit_to_bone(const VertebraModel& model, std::span<const Vec3> points_m,
-                                      const CentredPose& start, SurfaceFitOptions options) {
-  std::vector<Vec3> near_m;
-  near_m.reserve(points_m.size());
-  for (const Vec3& p : points_m) {
-    near_m.push_back(model.reachable_grid().nearest(start.rotation * p + start.centre_m));
+  for (Vec3& p : few_m) {
+    p -= centre_m;
   }
-  options.near_m = near_m;
-  return fit_to_surface(model.reachable_surface(), points_m, start, options);
-}
-
-std::vector<Candidate> find_candidates(const VertebraModel& model, const Cloud& cloud,
-                                       std::span<const Point<Vertebra>> targets,
-                                       double tip_radius_m) {
-  const SurfaceFitOptions options = quick_fit(tip_radius_m);
-  std::vector<Candidate> found = fitted_poses(model, cloud, targets, options);
-  if (least_noise_m(found) > kLooseHand_m) {
-    refit_with_standoff(model, cloud, options, found);
-  }
-  const double width_m = std::max(kTruncateSd * least_noise_m(found), kTruncateLeast_m);
-  for (Candidate& c : found) {
-    c.cost_m2 = truncated_cost_m2(c.fit, width_m);
-  }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.cost_m2 < b.cost_m2; });
-  return found;
+  const auto from_world = start.inverse();
+  Scored scored{{from_world.rotation(), (from_world * Point<World>{centre_m}).v}, 0.0};
+  refine(vertebra, few_m, kLast, tip_radius_m, scored);
+  return {world_from(scored.pose, centre_m), scored.cost};
 }
 
 }  // namespace orthonav::nav

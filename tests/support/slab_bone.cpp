@@ -1,9 +1,6 @@
 #include "tests/support/slab_bone.h"
 
-#include <algorithm>
 #include <cmath>
-
-#include "tests/support/anatomy.h"
 
 namespace orthonav::test {
 namespace {
@@ -17,11 +14,6 @@ constexpr std::uint32_t kRows = 40;
 double bump(double x, double z, double at_x, double at_z, double width_m) {
   const double r2 = (x - at_x) * (x - at_x) + (z - at_z) * (z - at_z);
   return std::exp(-r2 / (width_m * width_m));
-}
-
-Vec3 unit(Random& random) {
-  const Vec3 v{random.normal(), random.normal(), random.normal()};
-  return v / v.norm();
 }
 
 }  // namespace
@@ -94,47 +86,6 @@ std::vector<Vec3> strokes_over(const nav::SurfaceIndex& surface, std::size_t lan
     }
   }
   return places;
-}
-
-CentredPoints centred_somewhere(std::span<const Vec3> in_vertebra_m, Random& random) {
-  CentredPoints out;
-  for (const Vec3& p : in_vertebra_m) {
-    out.truth.centre_m += p;
-  }
-  out.truth.centre_m = out.truth.centre_m / static_cast<double>(in_vertebra_m.size());
-  out.truth.rotation = random_rotation(random);
-  const Mat3 back = out.truth.rotation.transposed();
-  for (const Vec3& p : in_vertebra_m) {
-    out.points_m.push_back(back * (p - out.truth.centre_m));
-  }
-  return out;
-}
-
-nav::CentredPose moved(const nav::CentredPose& pose, double translation_m, double rotation_rad,
-                       Random& random) {
-  return {rotation_from_vector(rotation_rad * unit(random)) * pose.rotation,
-          pose.centre_m + translation_m * unit(random)};
-}
-
-double apart_m(const nav::CentredPose& a, const nav::CentredPose& b) {
-  double most = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner{(i & 1) != 0 ? 0.03 : -0.03, (i & 2) != 0 ? 0.03 : -0.03,
-                      (i & 4) != 0 ? 0.03 : -0.03};
-    most = std::max(most,
-                    (a.rotation * corner + a.centre_m - b.rotation * corner - b.centre_m).norm());
-  }
-  return most;
-}
-
-std::vector<double> wandering(std::size_t count, double correlation_s, Random& random) {
-  std::vector<double> noise;
-  const double kept = correlation_s > 0.0 ? std::exp(-1.0 / 30.0 / correlation_s) : 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    noise.push_back(i == 0 ? random.normal()
-                           : kept * noise.back() + std::sqrt(1.0 - kept * kept) * random.normal());
-  }
-  return noise;
 }
 
 }  // namespace orthonav::test

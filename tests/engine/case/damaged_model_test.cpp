@@ -118,9 +118,9 @@ void spoil(PreparedParts& parts, Random& random) {
 /// A checksum does not protect against a program that writes nonsense: parts with arbitrary numbers
 /// are refused or searched without harm.
 TEST_F(ModelFiles, WithWrongNumbersAndARightChecksumNeverCrash) {
-  std::vector<Vec3> strokes;
+  std::vector<Point<World>> strokes;
   for (int i = 0; i < 200; ++i) {
-    strokes.push_back({0.001 * (i % 20), 0.0004 * (i / 20), 0.0002 * (i % 7)});
+    strokes.push_back({{0.001 * (i % 20), 0.0004 * (i / 20), 0.0002 * (i % 7)}});
   }
   int refused = 0;
   for (std::uint64_t seed = 0; seed < 120; ++seed) {

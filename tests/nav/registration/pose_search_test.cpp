@@ -17,7 +17,7 @@ namespace {
 using orthonav::test::digitize_strokes;
 using orthonav::test::StrokeVariant;
 
-/// What the exact fit starts from with certainty: the field errs by tenths of a millimetre.
+/// What the posterior starts from with certainty: the field errs by tenths of a millimetre.
 constexpr double kFound_m = 0.002;
 constexpr double kFound_rad = 0.06;
 constexpr double kNoise_m = 0.0004;
@@ -32,13 +32,13 @@ Transform<World, Vertebra> anywhere(Random& random) {
           {random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)}};
 }
 
-std::vector<Vec3> in_world(const std::vector<Vec3>& in_vertebra,
-                           const Transform<World, Vertebra>& pose, Random& random) {
-  std::vector<Vec3> out;
+std::vector<Point<World>> in_world(const std::vector<Vec3>& in_vertebra,
+                                   const Transform<World, Vertebra>& pose, Random& random) {
+  std::vector<Point<World>> out;
   for (const Vec3& p : in_vertebra) {
-    out.push_back((pose * Point<Vertebra>{p}).v + Vec3{random.normal(0, kNoise_m),
-                                                       random.normal(0, kNoise_m),
-                                                       random.normal(0, kNoise_m)});
+    out.push_back(pose * Point<Vertebra>{p});
+    out.back().v +=
+        Vec3{random.normal(0, kNoise_m), random.normal(0, kNoise_m), random.normal(0, kNoise_m)};
   }
   return out;
 }
@@ -97,9 +97,10 @@ TEST_F(SlabSearch, FindsBothPosesOfABoneThatHasTwo) {
 
 TEST_F(SlabSearch, FindsNoneWithoutPoints) {
   EXPECT_TRUE(search_poses(model_->search_field(), {}).empty());
-  EXPECT_TRUE(search_poses(model_->search_field(), std::vector<Vec3>(5)).empty());
+  EXPECT_TRUE(search_poses(model_->search_field(), std::vector<Point<World>>(5)).empty());
   // All in one place: whatever comes out is finite.
-  expect_in_order(search_poses(model_->search_field(), std::vector<Vec3>(3000, Vec3{1, 2, 3})), {});
+  const std::vector<Point<World>> same(3000, {{1, 2, 3}});
+  expect_in_order(search_poses(model_->search_field(), same), {});
 }
 
 TEST_F(SlabSearch, KeepsToWhatIsAsked) {
@@ -140,6 +141,28 @@ TEST_F(SlabSearch, KnowsATipWithARadius) {
   EXPECT_GT(without[0].cost_m2, 1.2 * with[0].cost_m2);
 }
 
+TEST_F(SlabSearch, RefinesAStartThatIsNear) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Random random(seed);
+    const auto truth = anywhere(random);
+    const Vec3 turn = random.uniform(0.02, 0.05) * (test::random_rotation(random) * Vec3{0, 0, 1});
+    const Vec3 shift = 0.002 * (test::random_rotation(random) * Vec3{0, 0, 1});
+    const auto start = truth * Transform<Vertebra, Vertebra>(rotation_from_vector(turn), shift);
+    const auto found =
+        refined_pose(model_->search_field(), in_world(places_, truth, random), start, 0.0);
+    for (const Point<Vertebra>& at : {Point<Vertebra>{{0.03, 0.0, 0.02}}, {{-0.03, 0.0, -0.02}}}) {
+      EXPECT_LT((found.world_from_vertebra * at - truth * at).norm(), 0.0004) << seed;
+      EXPECT_GT((start * at - truth * at).norm(), 0.0004) << "the control";
+    }
+    EXPECT_LT(found.cost_m2, 1e-6);
+  }
+  // Far from the bone nothing moves it.
+  const std::vector<Point<World>> far(50, {{1, 1, 1}});
+  const auto found = refined_pose(model_->search_field(), far, {}, 0.0);
+  EXPECT_EQ((found.world_from_vertebra * Point<Vertebra>{}).v.norm(), 0.0);
+  EXPECT_NEAR(found.cost_m2, 9e-6, 1e-12) << "every point counts as 3 mm off";
+}
+
 TEST(PhantomSearch, FindsThePoseAmongItsResultsHoweverItWasStroked) {
   const auto mesh = engine::phantom({"L4"}).levels.at(0).mesh;
   const auto model = VertebraModel::prepare(mesh).value();
@@ -147,11 +170,7 @@ TEST(PhantomSearch, FindsThePoseAmongItsResultsHoweverItWasStroked) {
   for (const StrokeVariant variant : orthonav::test::kStrokeVariants) {
     for (int i = 0; i < 2; ++i, ++seed) {
       const auto strokes = digitize_strokes(mesh, variant, seed).value();
-      std::vector<Vec3> points;
-      for (const Point<World>& p : strokes.tips()) {
-        points.push_back(p.v);
-      }
-      const auto found = search_poses(model->search_field(), points);
+      const auto found = search_poses(model->search_field(), strokes.tips());
       expect_in_order(found, {});
       const Point<Vertebra> back{model->reachable_axes().centre_m};
       const auto rank = std::find_if(found.begin(), found.end(),
