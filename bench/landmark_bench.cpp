@@ -209,8 +209,7 @@ int run_all(engine::OperationOptions options, std::uint64_t first, int operation
   std::puts("seed,touched,off_mm,limit_mm,held,apart_s,moved_mm,entry_moved_mm,turned_deg,guided");
   options.levels = {level};
   const engine::Case source = engine::phantom();
-  engine::ModelCache none;
-  const auto planned = engine::plan_operation(source, options.levels, none);
+  const auto planned = engine::plan_operation(source, options.levels);
   if (!planned) {
     std::fprintf(stderr, "%s\n", planned.error().message.c_str());
     return 2;

@@ -188,8 +188,7 @@ void add(Figures& figures, const Rod& rod) {
 }
 
 int run_all(engine::OperationOptions options, std::uint64_t first, int operations) {
-  engine::ModelCache none;
-  const auto planned = engine::plan_operation(engine::phantom(), options.levels, none);
+  const auto planned = engine::plan_operation(engine::phantom(), options.levels);
   if (!planned) {
     std::fprintf(stderr, "%s\n", planned.error().message.c_str());
     return 2;

@@ -191,8 +191,7 @@ Result<OperationResult> run_operation(const Case& source, const OperationOptions
   if (options.rods_alone) {
     return run_operation(source, plan_rods_alone(source), options, hooks);
   }
-  ModelCache none;
-  auto operation = plan_operation(source, options.levels, hooks.models ? *hooks.models : none);
+  auto operation = plan_operation(source, options.levels);
   if (!operation) {
     return operation.error();
   }

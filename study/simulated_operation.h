@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "engine/case/case.h"
-#include "engine/case/model_cache.h"
 #include "engine/live/assembled_operation.h"
 #include "engine/report/operation_result.h"
 #include "hal/sim/sim_headset.h"
@@ -51,7 +50,6 @@ struct OperationHooks {
   std::vector<SessionObserver*> session;
   LoopObserver* loop = nullptr;
   SnapshotSink* sink = nullptr;
-  ModelCache* models = nullptr;  ///< source of prepared models; not asked to keep any
   /// Receives, before the operation runs, a function that ends it early, callable from any thread;
   /// and null once it has ended.
   std::function<void(std::function<void()>)> can_stop;

@@ -136,9 +136,7 @@ class Workers {
     if (known != plans_.end()) {
       return known->second;
     }
-    ModelCache models;
-    return plans_.emplace(&source, plan_operation(source, options_.operation.levels, models))
-        .first->second;
+    return plans_.emplace(&source, plan_operation(source, options_.operation.levels)).first->second;
   }
 
   void stop_all() ORTHONAV_REQUIRES(mutex_) {

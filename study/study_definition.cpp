@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
-#include "engine/case/prepared_parts_file.h"
 #include "engine/case/tool_file.h"
 #include "hal/sim/magnitudes.h"
 #include "study/left_out.h"
@@ -16,8 +15,9 @@ using Json = nlohmann::ordered_json;
 Json case_json(const Case& source) {
   Json levels = Json::array();
   for (const CaseLevel& level : source.levels) {
-    const MeshKey key = MeshKey::of(level.mesh);
-    levels.push_back({{"label", level.label}, {"mesh", key.text()}});
+    BitHash mesh;
+    add(mesh, level.mesh);
+    levels.push_back({{"label", level.label}, {"mesh", mesh.text()}});
   }
   return {{"name", source.name}, {"levels", levels}};
 }

@@ -101,4 +101,15 @@ std::vector<std::string> Case::check(CaseUse use) const {
   return problems;
 }
 
+void add(BitHash& hash, const nav::TriangleMesh& mesh) {
+  for (const Vec3 vertex_m : mesh.vertices_m) {
+    hash.add(vertex_m);
+  }
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) {
+      hash.add(static_cast<std::uint64_t>(corner));
+    }
+  }
+}
+
 }  // namespace orthonav::engine

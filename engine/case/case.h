@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "base/transform.h"
+#include "engine/io/bit_hash.h"
 #include "nav/geometry/mesh.h"
 #include "nav/guidance/screw.h"
 
@@ -50,5 +51,8 @@ struct Case {
   /// the bone. Empty when all is well.
   [[nodiscard]] std::vector<std::string> check(CaseUse use = CaseUse::kOperation) const;
 };
+
+/// Adds every number of a mesh.
+void add(BitHash& hash, const nav::TriangleMesh& mesh);
 
 }  // namespace orthonav::engine

@@ -44,13 +44,13 @@ std::vector<std::string> other_levels(const Case& source, const std::string& lab
 /// Prepares each level once.
 class PreparedLevels {
  public:
-  PreparedLevels(const Case& source, ModelCache& cache) : source_(source), cache_(cache) {}
+  explicit PreparedLevels(const Case& source) : source_(source) {}
 
   Result<std::shared_ptr<const nav::VertebraModel>> model(const std::string& label) {
     if (const auto known = models_.find(label); known != models_.end()) {
       return known->second;
     }
-    auto model = cache_.prepared(source_.find(label)->mesh);
+    auto model = nav::VertebraModel::prepare(source_.find(label)->mesh);
     if (!model) {
       return Error{"case '" + source_.name + "', level '" + label + "': " + model.error().message};
     }
@@ -59,7 +59,6 @@ class PreparedLevels {
 
  private:
   const Case& source_;
-  ModelCache& cache_;
   std::map<std::string, std::shared_ptr<const nav::VertebraModel>> models_;
 };
 
@@ -117,11 +116,6 @@ Result<std::vector<std::string>> levels_to_operate(const Case& source,
   return ordered;
 }
 
-Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels) {
-  ModelCache none;
-  return plan_operation(source, labels, none);
-}
-
 Result<Operation> plan_without_models(const Case& source, const std::vector<std::string>& labels) {
   const auto ordered = levels_to_operate(source, labels);
   if (!ordered) {
@@ -134,13 +128,12 @@ Result<Operation> plan_without_models(const Case& source, const std::vector<std:
   return operation;
 }
 
-Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels,
-                                 ModelCache& cache) {
+Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels) {
   auto operation = plan_without_models(source, labels);
   if (!operation) {
     return operation;
   }
-  PreparedLevels prepared(source, cache);
+  PreparedLevels prepared(source);
   for (OperatedLevel& level : operation->levels) {
     const auto model = prepared.model(level.label);
     if (!model) {

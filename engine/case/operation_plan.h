@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "engine/case/case.h"
-#include "engine/case/model_cache.h"
 #include "engine/case/operation.h"
 
 namespace orthonav::engine {
@@ -20,10 +19,7 @@ Result<std::vector<std::string>> levels_to_operate(const Case& source,
 /// Prepares levels of a case for an operation, in the order of the case. `labels` empty: the two
 /// lowest levels of the spine with screws. Refuses a label that the case does not have, that has no
 /// screws or that is given twice, and a screw that breaks through its cortex without a stated
-/// reason (engine/case/screw_breach.h). `cache` may hold them from earlier; new ones it can `keep`
-/// afterwards.
-Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels,
-                                 ModelCache& cache);
+/// reason (engine/case/screw_breach.h).
 Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels = {});
 
 /// The same without models: of levels that are shown, but not registered.

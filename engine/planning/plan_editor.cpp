@@ -36,10 +36,10 @@ double listed_length_m(const ScrewSizes& sizes, double diameter_m, double length
 
 }  // namespace
 
-Result<PlanEditor> PlanEditor::create(Case subject, ScrewSizes sizes, ModelCache& models) {
+Result<PlanEditor> PlanEditor::create(Case subject, ScrewSizes sizes) {
   Bones bones;
   for (const CaseLevel& level : subject.levels) {
-    auto bone = models.prepared(level.mesh);
+    auto bone = nav::VertebraModel::prepare(level.mesh);
     if (!bone) {
       return Error{level.label + ": " + bone.error().message, bone.error().code};
     }

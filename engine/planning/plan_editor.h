@@ -9,7 +9,6 @@
 
 #include "base/result.h"
 #include "engine/case/case.h"
-#include "engine/case/model_cache.h"
 #include "engine/case/screw_sizes.h"
 #include "engine/session/replan.h"
 #include "nav/guidance/screw_clearance.h"
@@ -31,7 +30,7 @@ struct ScrewPlace {
 class PlanEditor {
  public:
   /// Prepares the bones. Refuses a case with a mesh that is not a vertebra.
-  static Result<PlanEditor> create(Case subject, ScrewSizes sizes, ModelCache& models);
+  static Result<PlanEditor> create(Case subject, ScrewSizes sizes);
 
   /// The case with its screws as they are now.
   [[nodiscard]] const Case& subject() const { return subject_; }

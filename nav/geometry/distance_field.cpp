@@ -1,20 +1,12 @@
 #include "nav/geometry/distance_field.h"
 
-#include <algorithm>
 #include <cmath>
-#include <string>
-#include <utility>
+#include <limits>
 
 namespace orthonav::nav {
-namespace {
 
-float signed_distance_m(double distance_m, bool inside) {
-  return static_cast<float>(inside ? -distance_m : distance_m);
-}
-
-}  // namespace
-
-DistanceField::DistanceField(const TriangleMesh& mesh, double cell_m, double margin_m)
+DistanceField::DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near,
+                             const SurfaceIndex& bone, double cell_m, double margin_m)
     : cell_m_(cell_m) {
   const Bounds box = bounds_of(mesh);
   const Vec3 margin{margin_m, margin_m, margin_m};
@@ -24,73 +16,85 @@ DistanceField::DistanceField(const TriangleMesh& mesh, double cell_m, double mar
     size_[k] = static_cast<int>(std::ceil(extent[static_cast<int>(k)] / cell_m)) + 1;
   }
   bounds_.high = bounds_.low + cell_m * Vec3{size_[0] - 1.0, size_[1] - 1.0, size_[2] - 1.0};
+
+  // Near the surface distances are exact. Farther off, the point closest to one of the neighbours
+  // is the closest one, or nearly (Danielsson 1980, "Euclidean distance mapping").
+  struct Closest {
+    Vec3 point_m;
+    double distance2 = std::numeric_limits<double>::infinity();
+    bool exact = false;
+  };
+  const double exact_m = 2.5 * cell_m;
+  std::vector<Closest> samples(sample(0, 0, size_[2]));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (const auto found = near.nearest(place_m(i), exact_m)) {
+      samples[i] = {found->point_m, found->distance_m * found->distance_m, true};
+    }
+  }
+  // The 13 neighbours that come before a sample in their order, then those that come after it;
+  // twice, since the way from the surface may turn.
+  for (const int side : {-1, 1, -1, 1}) {
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const std::size_t i = side < 0 ? k : samples.size() - 1 - k;
+      Closest& here = samples[i];
+      if (here.exact) {
+        continue;
+      }
+      const auto [x, y, z] = indices(i);
+      const Vec3 place = place_m(i);
+      for (int neighbour = 0; neighbour < 13; ++neighbour) {
+        const int beside_x = x + side * (1 - neighbour % 3);
+        const int beside_y = y + side * (1 - neighbour / 3 % 3);
+        const int beside_z = z + side * (1 - neighbour / 9);
+        if (beside_x < 0 || beside_y < 0 || beside_z < 0 || beside_x >= size_[0] ||
+            beside_y >= size_[1] || beside_z >= size_[2]) {
+          continue;
+        }
+        const Closest& beside = samples[sample(beside_x, beside_y, beside_z)];
+        if (std::isfinite(beside.distance2)) {
+          const double distance2 = (beside.point_m - place).squared_norm();
+          if (distance2 < here.distance2) {
+            here = {beside.point_m, distance2, false};
+          }
+        }
+      }
+    }
+  }
+
+  // Where the bone's surface is farther than the neighbour, both lie on the same side of it. Half
+  // a cell more keeps the neighbour itself off the surface.
+  const double clear_m = 1.5 * cell_m;
+  bool inside = false;
+  distance_m_.reserve(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Vec3 place = place_m(i);
+    if (const auto beside = bone.nearest(place, clear_m)) {
+      inside = bone.contains(place, *beside);
+    } else if (indices(i)[0] == 0) {
+      inside = bone.contains(place);
+    }
+    const double distance_m = std::sqrt(samples[i].distance2);
+    distance_m_.push_back(static_cast<float>(inside ? -distance_m : distance_m));
+  }
 }
 
-std::size_t DistanceField::count() const {
-  return static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
-         static_cast<std::size_t>(size_[2]);
+std::size_t DistanceField::sample(int x, int y, int z) const {
+  const auto row = static_cast<std::size_t>(size_[0]);
+  const auto rows = static_cast<std::size_t>(size_[1]);
+  return (static_cast<std::size_t>(z) * rows + static_cast<std::size_t>(y)) * row +
+         static_cast<std::size_t>(x);
+}
+
+std::array<int, 3> DistanceField::indices(std::size_t sample) const {
+  const auto row = static_cast<std::size_t>(size_[0]);
+  const std::size_t slice = row * static_cast<std::size_t>(size_[1]);
+  return {static_cast<int>(sample % row), static_cast<int>(sample % slice / row),
+          static_cast<int>(sample / slice)};
 }
 
 Vec3 DistanceField::place_m(std::size_t sample) const {
-  const auto row = static_cast<std::size_t>(size_[0]);
-  const std::size_t slice = row * static_cast<std::size_t>(size_[1]);
-  return bounds_.low + cell_m_ * Vec3{static_cast<double>(sample % row),
-                                      static_cast<double>(sample % slice / row),
-                                      static_cast<double>(sample / slice)};
-}
-
-DistanceField::DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near,
-                             const SurfaceIndex& bone, double cell_m, double margin_m)
-    : DistanceField(mesh, cell_m, margin_m) {
-  const std::size_t samples = count();
-  const auto row = static_cast<std::size_t>(size_[0]);
-  distance_m_.reserve(samples);
-  Vec3 closest_m;
-  bool inside = false;
-  for (std::size_t i = 0; i < samples; ++i) {
-    const Vec3 place = place_m(i);
-    // The surface is no farther than its point that is closest to the neighbour.
-    double within_m = i % row > 0 ? (closest_m - place).norm() * (1.0 + 1e-12) + 1e-15 : 1e9;
-    if (const auto found = near.nearest(place, within_m)) {
-      closest_m = found->point_m;
-      within_m = found->distance_m;
-    }
-    // Where the bone's surface is farther than the neighbour, both lie on the same side of it. Half
-    // a cell more keeps the neighbour itself off the surface.
-    const double clear_m = 1.5 * cell_m;
-    if (i % row == 0 || within_m < clear_m || bone.nearest(place, clear_m)) {
-      inside = bone.contains(place);
-    }
-    distance_m_.push_back(signed_distance_m(within_m, inside));
-  }
-}
-
-Result<DistanceField> DistanceField::restored(const TriangleMesh& mesh, const SurfaceIndex& near,
-                                              const SurfaceIndex& bone, double cell_m,
-                                              double margin_m, std::vector<float> samples_m) {
-  constexpr std::size_t kLookedAt = 300;
-  constexpr double kSame_m = 1e-7;  // floats of up to 0.3 m
-  DistanceField field(mesh, cell_m, margin_m);
-  const std::size_t samples = field.count();
-  if (samples_m.size() != samples) {
-    return Error{"distances at " + std::to_string(samples_m.size()) + " places, the mesh has " +
-                 std::to_string(samples)};
-  }
-  if (!std::all_of(samples_m.begin(), samples_m.end(), [](float d) { return std::isfinite(d); })) {
-    return Error{"distances are not all finite"};
-  }
-  for (std::size_t i = 0; i < samples; i += std::max<std::size_t>(1, samples / kLookedAt)) {
-    const Vec3 place = field.place_m(i);
-    const auto found = near.nearest(place);
-    const double right_m =
-        found ? static_cast<double>(signed_distance_m(found->distance_m, bone.contains(place)))
-              : 0.0;
-    if (!found || !(std::abs(static_cast<double>(samples_m[i]) - right_m) <= kSame_m)) {
-      return Error{"distances are of another mesh (place " + std::to_string(i) + ")"};
-    }
-  }
-  field.distance_m_ = std::move(samples_m);
-  return field;
+  const auto [x, y, z] = indices(sample);
+  return bounds_.low + cell_m_ * Vec3{1.0 * x, 1.0 * y, 1.0 * z};
 }
 
 bool DistanceField::at(Vec3 query_m, Value& value) const {

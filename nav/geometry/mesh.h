@@ -91,6 +91,8 @@ class SurfaceIndex {
   [[nodiscard]] std::optional<RayHit> first_hit(Vec3 origin_m, Vec3 direction) const;
   /// Whether a closed, outward-oriented surface encloses the point.
   [[nodiscard]] bool contains(Vec3 query_m) const;
+  /// The same, sooner, where its nearest point is known.
+  [[nodiscard]] bool contains(Vec3 query_m, const SurfacePoint& nearest) const;
 
  private:
   BoxTree boxes_;

@@ -185,4 +185,11 @@ bool SurfaceIndex::contains(Vec3 query_m) const {
   return inside(1) == first ? first : inside(2);
 }
 
+bool SurfaceIndex::contains(Vec3 query_m, const SurfacePoint& nearest) const {
+  // Beside an edge the nearest face alone does not tell the side.
+  constexpr double kClear = 0.5;
+  const double along_m = (query_m - nearest.point_m).dot(nearest.normal);
+  return std::abs(along_m) > kClear * nearest.distance_m ? along_m < 0.0 : contains(query_m);
+}
+
 }  // namespace orthonav::nav

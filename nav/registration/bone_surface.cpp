@@ -9,34 +9,38 @@ namespace orthonav::nav::posterior {
 BoneSurface::BoneSurface(const VertebraModel& model, bool mirrored)
     : model_(&model), side_(mirrored ? -1.0 : 1.0) {}
 
-BoneSurface::Place BoneSurface::at(Vec3 query_m, double within_m) const {
+std::optional<BoneSurface::Place> BoneSurface::within(Vec3 query_m, double within_m) const {
   const auto swapped = [&](Vec3 v) { return Vec3{side_ * v.x, v.y, v.z}; };
   query_m = swapped(query_m);
   const auto nearest = model_->surface().nearest(query_m, within_m);
   if (!nearest) {
-    return {within_m, {}, swapped(query_m)};
+    return std::nullopt;
   }
   constexpr double kOnSurface_m = 1e-7;
-  constexpr double kClear = 0.5;
-  const Vec3 off = query_m - nearest->point_m;
-  // Beside an edge the nearest face alone does not tell the side.
-  const double along = off.dot(nearest->normal);
-  const bool clear = std::abs(along) > kClear * nearest->distance_m;
-  const bool inside = clear ? along < 0.0 : model_->surface().contains(query_m);
-  const double side = inside ? -1.0 : 1.0;
-  const Vec3 out =
-      nearest->distance_m > kOnSurface_m ? (side / nearest->distance_m) * off : nearest->normal;
-  return {side * nearest->distance_m, swapped(out), swapped(nearest->point_m)};
+  const double side = model_->surface().contains(query_m, *nearest) ? -1.0 : 1.0;
+  const Vec3 out = nearest->distance_m > kOnSurface_m
+                       ? (side / nearest->distance_m) * (query_m - nearest->point_m)
+                       : nearest->normal;
+  return Place{side * nearest->distance_m, swapped(out), swapped(nearest->point_m)};
 }
 
-Vec3 BoneSurface::place_near(Vec3 query_m) const {
-  const Vec3 found = model_->reachable_grid().nearest({side_ * query_m.x, query_m.y, query_m.z});
-  return {side_ * found.x, found.y, found.z};
+BoneSurface::Place BoneSurface::at(Vec3 query_m) const {
+  // The field is of a part of the surface and errs by less than this, nearly always.
+  constexpr double kField_m = 0.001;
+  DistanceField::Value value;
+  if (model_->search_field().field().at({side_ * query_m.x, query_m.y, query_m.z}, value)) {
+    if (const auto found = within(query_m, std::abs(value.distance_m) + kField_m)) {
+      return *found;
+    }
+  }
+  constexpr double kAnywhere_m = 1e9;
+  return within(query_m, kAnywhere_m).value_or(Place{kAnywhere_m, {}, query_m});
 }
 
 BoneSurface::Place BoneSurface::near(Vec3 query_m, Vec3 hint_m) const {
   constexpr double kRounding = 1.0 + 1e-12;
-  return at(query_m, (query_m - hint_m).norm() * kRounding + 1e-12);
+  const auto found = within(query_m, (query_m - hint_m).norm() * kRounding + 1e-12);
+  return found ? *found : at(query_m);
 }
 
 double BoneSurface::mean_height_around_m(Vec3 place_m, Vec3 out, double aside_m) const {
@@ -51,10 +55,7 @@ double BoneSurface::mean_height_around_m(Vec3 place_m, Vec3 out, double aside_m)
   for (int k = 0; k < kDirections; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / kDirections;
     const Vec3 beside_m = place_m + aside_m * (std::cos(angle) * first + std::sin(angle) * second);
-    // Both lie on the surface: the nearer one leaves less to be searched.
-    const Vec3 other_m = place_near(beside_m);
-    const bool nearer = (other_m - beside_m).squared_norm() < aside_m * aside_m;
-    sum_m += near(beside_m, nearer ? other_m : place_m).distance_m;
+    sum_m += at(beside_m).distance_m;
   }
   return sum_m / kDirections;
 }

@@ -18,12 +18,10 @@ class BoneSurface {
     Vec3 out;                 ///< unit, away from the bone: the distance's gradient
     Vec3 nearest_m;
   };
-  /// The nearest place of the surface. `within_m` only saves time: it has to be no less than the
-  /// distance.
-  [[nodiscard]] Place at(Vec3 query_m, double within_m = 1e9) const;
-  /// A place of the surface that is not far, by look-up: where a search for the nearest one starts.
-  [[nodiscard]] Vec3 place_near(Vec3 query_m) const;
-  /// The same, where the nearest place is known to be near `hint_m`, which lies on the surface.
+  /// The nearest place of the surface.
+  [[nodiscard]] Place at(Vec3 query_m) const;
+  /// The same, sooner, where the nearest place is known to be near `hint_m`, which lies on the
+  /// surface.
   [[nodiscard]] Place near(Vec3 query_m, Vec3 hint_m) const;
 
   /// How far above the bone, on average, a circle of this radius lies in the plane that touches it
@@ -36,6 +34,7 @@ class BoneSurface {
   [[nodiscard]] const VertebraModel& model() const { return *model_; }
 
  private:
+  [[nodiscard]] std::optional<Place> within(Vec3 query_m, double within_m) const;
   const VertebraModel* model_;
   double side_ = 1.0;
 };

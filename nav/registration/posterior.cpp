@@ -79,7 +79,7 @@ Touches touches_at(const Observations& observations, const BoneSurface& bone,
     if (same != nullptr && !(same->out.squared_norm() > 0.0)) {
       same = nullptr;  // it was not wanted there
     }
-    const auto place = bone.near(p, same != nullptr ? same->nearest_m : bone.place_near(p));
+    const auto place = same != nullptr ? bone.near(p, same->nearest_m) : bone.at(p);
     Touches::Touch& touch = out.all[i];
     touch.lever_m = p - out.centre_m;
     touch.out = place.out;

@@ -213,7 +213,7 @@ Fit fit_at(const BoneSurface& bone, const Observations& observations,
   double squares_m2 = 0.0;
   for (const StrokePoint& point : observations.strokes) {
     const Vec3 at_m = (from_world * point.tip).v;
-    const auto place = bone.near(at_m, bone.place_near(at_m));
+    const auto place = bone.at(at_m);
     const Vec3 turned = (at_m - centre_m).cross(place.out);
     Eigen::Matrix<double, 6, 1> moves;
     moves << place.out.x, place.out.y, place.out.z, turned.x, turned.y, turned.z;

@@ -187,23 +187,8 @@ constexpr double kCostPerM = 250.0 / (kInsideFactor * kFarthest_m);
 
 SearchField::SearchField(const TriangleMesh& reachable, const SurfaceIndex& reachable_surface,
                          const SurfaceIndex& bone)
-    : SearchField(bounds_of(reachable),
-                  DistanceField(reachable, reachable_surface, bone, kFieldCell_m, kFieldMargin_m)) {
-}
-
-Result<SearchField> SearchField::restored(const TriangleMesh& reachable,
-                                          const SurfaceIndex& reachable_surface,
-                                          const SurfaceIndex& bone, std::vector<float> samples_m) {
-  auto field = DistanceField::restored(reachable, reachable_surface, bone, kFieldCell_m,
-                                       kFieldMargin_m, std::move(samples_m));
-  if (!field) {
-    return field.error();
-  }
-  return SearchField(bounds_of(reachable), std::move(*field));
-}
-
-SearchField::SearchField(const Bounds& reachable_bounds, DistanceField field)
-    : reachable_bounds_(reachable_bounds), field_(std::move(field)) {
+    : reachable_bounds_(bounds_of(reachable)),
+      field_(reachable, reachable_surface, bone, kFieldCell_m, kFieldMargin_m) {
   const double pad_m = kReach_m + 2.0 * kSearchCell_m;
   const Vec3 pad{pad_m, pad_m, pad_m};
   cells_.low_m = reachable_bounds_.low - pad;
@@ -235,10 +220,6 @@ SearchField::SearchField(const Bounds& reachable_bounds, DistanceField field)
 
 namespace {
 
-// Fine enough to separate crests, coarse enough to be computed in a fraction of a second.
-constexpr double kGridCell_m = 0.003;
-constexpr double kGridMargin_m = 0.02;
-
 /// Weighted by area, so that a finely meshed corner counts only for its size.
 PrincipalAxes axes_by_area(const TriangleMesh& mesh) {
   std::vector<Vec3> centres_m;
@@ -257,41 +238,7 @@ std::vector<std::uint32_t> all_faces(const TriangleMesh& mesh) {
   return faces;
 }
 
-Status check_faces(const TriangleMesh& mesh, const SurfaceIndex& surface,
-                   const std::vector<std::uint32_t>& faces) {
-  constexpr std::size_t kLookedAt = 300;
-  const std::vector<Vec3> from_behind = directions_from_behind();
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (faces[i] >= mesh.triangles.size() || (i > 0 && faces[i] <= faces[i - 1])) {
-      return Error{"reachable faces are not in order, or not the mesh's"};
-    }
-  }
-  for (std::size_t i = 0; i < faces.size();
-       i += std::max<std::size_t>(1, faces.size() / kLookedAt)) {
-    if (!is_visible(surface, corners_of(mesh, mesh.triangles[faces[i]]), from_behind)) {
-      return Error{"reachable faces are of another mesh (face " + std::to_string(faces[i]) + ")"};
-    }
-  }
-  return {};
-}
-
 }  // namespace
-
-/// The common start of both ways to make a model.
-struct VertebraModel::Surfaces {
-  Surfaces(TriangleMesh whole, SurfaceIndex index, std::vector<std::uint32_t> faces)
-      : mesh(std::move(whole)),
-        surface(std::move(index)),
-        reachable_faces(std::move(faces)),
-        reachable(part_of(mesh, reachable_faces)),
-        reachable_surface(reachable) {}
-
-  TriangleMesh mesh;
-  SurfaceIndex surface;
-  std::vector<std::uint32_t> reachable_faces;
-  TriangleMesh reachable;
-  SurfaceIndex reachable_surface;
-};
 
 Result<std::shared_ptr<const VertebraModel>> VertebraModel::prepare(TriangleMesh mesh, Bone bone) {
   auto checked = checked_bone(std::move(mesh), bone);
@@ -307,56 +254,19 @@ Result<std::shared_ptr<const VertebraModel>> VertebraModel::prepare(TriangleMesh
         "model has no surface that a pointer can reach from behind (+y): its axes must be "
         "LPS"};
   }
-  Surfaces s(std::move(*checked), std::move(surface), std::move(faces));
-  ClosestGrid grid(s.reachable, s.reachable_surface, kGridCell_m, kGridMargin_m);
-  SearchField field(s.reachable, s.reachable_surface, s.surface);
   return std::shared_ptr<const VertebraModel>(
-      new VertebraModel(bone, std::move(s), std::move(grid), std::move(field)));
+      new VertebraModel(bone, std::move(*checked), std::move(surface), std::move(faces)));
 }
 
-Result<std::shared_ptr<const VertebraModel>> VertebraModel::restore(TriangleMesh mesh,
-                                                                    PreparedParts parts) {
-  auto checked = checked_bone(std::move(mesh));
-  if (!checked) {
-    return checked.error();
-  }
-  if (parts.reachable.empty()) {
-    return Error{"no reachable faces"};
-  }
-  SurfaceIndex surface(*checked);
-  if (const Status s = check_faces(*checked, surface, parts.reachable); !s) {
-    return s.error();
-  }
-  Surfaces s(std::move(*checked), std::move(surface), std::move(parts.reachable));
-  auto grid = ClosestGrid::restored(s.reachable, s.reachable_surface, kGridCell_m, kGridMargin_m,
-                                    std::move(parts.closest_m));
-  if (!grid) {
-    return grid.error();
-  }
-  auto field = SearchField::restored(s.reachable, s.reachable_surface, s.surface,
-                                     std::move(parts.distance_m));
-  if (!field) {
-    return field.error();
-  }
-  return std::shared_ptr<const VertebraModel>(
-      new VertebraModel(Bone::kVertebra, std::move(s), std::move(*grid), std::move(*field)));
-}
-
-PreparedParts VertebraModel::parts() const {
-  const auto closest = reachable_grid_.closest_m();
-  const auto distance = search_field_.field().samples_m();
-  return {reachable_faces_, {closest.begin(), closest.end()}, {distance.begin(), distance.end()}};
-}
-
-VertebraModel::VertebraModel(Bone bone, Surfaces surfaces, ClosestGrid grid, SearchField field)
+VertebraModel::VertebraModel(Bone bone, TriangleMesh mesh, SurfaceIndex surface,
+                             std::vector<std::uint32_t> reachable_faces)
     : bone_(bone),
-      mesh_(std::move(surfaces.mesh)),
-      reachable_faces_(std::move(surfaces.reachable_faces)),
-      reachable_(std::move(surfaces.reachable)),
-      surface_(std::move(surfaces.surface)),
-      reachable_surface_(std::move(surfaces.reachable_surface)),
-      reachable_grid_(std::move(grid)),
+      mesh_(std::move(mesh)),
+      surface_(std::move(surface)),
+      reachable_faces_(std::move(reachable_faces)),
+      reachable_(part_of(mesh_, reachable_faces_)),
+      reachable_surface_(reachable_),
       reachable_axes_(axes_by_area(reachable_)),
-      search_field_(std::move(field)) {}
+      search_field_(reachable_, reachable_surface_, surface_) {}
 
 }  // namespace orthonav::nav

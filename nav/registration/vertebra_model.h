@@ -8,7 +8,6 @@
 
 #include "base/result.h"
 #include "base/transform.h"
-#include "nav/geometry/closest_grid.h"
 #include "nav/geometry/distance_field.h"
 #include "nav/geometry/mesh.h"
 #include "nav/geometry/principal_axes.h"
@@ -33,10 +32,6 @@ class SearchField {
 
   SearchField(const TriangleMesh& reachable, const SurfaceIndex& reachable_surface,
               const SurfaceIndex& bone);
-  /// The same from the samples of `field()`; refuses samples of other surfaces.
-  static Result<SearchField> restored(const TriangleMesh& reachable,
-                                      const SurfaceIndex& reachable_surface,
-                                      const SurfaceIndex& bone, std::vector<float> samples_m);
 
   [[nodiscard]] const DistanceField& field() const { return field_; }
   /// The box within which the centre of the digitized points is tried.
@@ -63,23 +58,9 @@ class SearchField {
   [[nodiscard]] const Cells& cells() const { return cells_; }
 
  private:
-  SearchField(const Bounds& reachable_bounds, DistanceField field);
   Bounds reachable_bounds_;
   DistanceField field_;
   Cells cells_;
-};
-
-/// Raise this with every change that prepares the same mesh differently: stored preparations
-/// (engine/case/model_cache.h) are then made again. A test checks it against the figures of a known
-/// bone.
-inline constexpr std::uint32_t kPreparationVersion = 2;
-
-/// The parts of a vertebra's preparation that are slow to compute, as plain numbers that can be
-/// stored.
-struct PreparedParts {
-  std::vector<std::uint32_t> reachable;  ///< faces, ascending
-  std::vector<Vec3> closest_m;           ///< of `reachable_grid`
-  std::vector<float> distance_m;         ///< of `search_field`
 };
 
 /// The preoperative vertebra, prepared once: its mesh (frame Vertebra: LPS axes, metres), the part
@@ -89,12 +70,6 @@ class VertebraModel {
  public:
   static Result<std::shared_ptr<const VertebraModel>> prepare(TriangleMesh mesh,
                                                               Bone bone = Bone::kVertebra);
-  /// The same, but faster, from the parts of an earlier preparation of this mesh. Refuses parts of
-  /// another mesh, judged by their counts and a hundred or so samples: enough against mix-ups, not
-  /// against malice. Parts with wrong numbers never cause a crash.
-  static Result<std::shared_ptr<const VertebraModel>> restore(TriangleMesh mesh,
-                                                              PreparedParts parts);
-  [[nodiscard]] PreparedParts parts() const;
 
   [[nodiscard]] Bone bone() const { return bone_; }
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
@@ -106,23 +81,20 @@ class VertebraModel {
   [[nodiscard]] const std::vector<std::uint32_t>& reachable_faces() const {
     return reachable_faces_;
   }
-  /// Approximate closest points by fast look-up.
-  [[nodiscard]] const ClosestGrid& reachable_grid() const { return reachable_grid_; }
   /// Principal axes of the reachable surface, by area.
   [[nodiscard]] const PrincipalAxes& reachable_axes() const { return reachable_axes_; }
   /// For the search of every pose.
   [[nodiscard]] const SearchField& search_field() const { return search_field_; }
 
  private:
-  struct Surfaces;
-  VertebraModel(Bone bone, Surfaces surfaces, ClosestGrid grid, SearchField field);
+  VertebraModel(Bone bone, TriangleMesh mesh, SurfaceIndex surface,
+                std::vector<std::uint32_t> reachable_faces);
   Bone bone_;
   TriangleMesh mesh_;
+  SurfaceIndex surface_;
   std::vector<std::uint32_t> reachable_faces_;
   TriangleMesh reachable_;
-  SurfaceIndex surface_;
   SurfaceIndex reachable_surface_;
-  ClosestGrid reachable_grid_;
   PrincipalAxes reachable_axes_;
   SearchField search_field_;
 };

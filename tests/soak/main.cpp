@@ -48,8 +48,7 @@ int soak(const Arguments& arguments) {
     return 2;
   }
   const engine::Case source = engine::phantom();
-  engine::ModelCache models;
-  const auto planned = engine::plan_operation(source, {}, models);
+  const auto planned = engine::plan_operation(source, {});
   if (!planned) {
     std::fprintf(stderr, "soak: %s\n", planned.error().message.c_str());
     return 2;

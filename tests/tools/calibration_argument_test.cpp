@@ -74,7 +74,7 @@ TEST(CalibrationArgument, WinsOverTheRigFilesOfAnOpenxrHeadset) {
   const std::string rig = folder.with("rig.json", R"({"calibration": "of-the-rig.json",
       "view_from_rig": [[1,0,0,-50], [0,1,0,10], [0,0,1,-30], [0,0,0,1]]})");
   std::vector<std::string> run = {"run", "--headset", "openxr:?rig=" + rig + "+sim:", "--out",
-                                  results_in(folder)};
+                                  folder.file("out")};
   const Called of_rig = orthonav(run);
   EXPECT_EQ(of_rig.code, 2);
   EXPECT_THAT(of_rig.err, HasSubstr(folder.file("of-the-rig.json")));

@@ -114,14 +114,6 @@ std::vector<std::string> ScratchFolder::names() const {
   return found;
 }
 
-std::string results_in(const ScratchFolder& folder) {
-  const std::string out = folder.file("out");
-  std::filesystem::create_directories(out);
-  std::filesystem::create_directories(ORTHONAV_TEST_MODELS);
-  std::filesystem::create_directory_symlink(ORTHONAV_TEST_MODELS, out + "/models");
-  return out;
-}
-
 std::string shared(const std::string& name) {
   const std::string path = test_data(name).string();
   return std::filesystem::exists(path) ? path : std::string();

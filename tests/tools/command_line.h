@@ -38,10 +38,6 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-/// A folder `out` for what a run writes. It has the models of the phantom, which all tests share:
-/// to prepare them takes a run more than a second of processor time.
-std::string results_in(const ScratchFolder& folder);
-
 using orthonav::test::content_of;
 /// A file or folder of the test data; empty when it is absent.
 std::string shared(const std::string& name);

@@ -231,7 +231,7 @@ TEST_F(DepthCommand, IsListedByTheDoctor) {
 TEST_F(DepthCommand, FindsItAgainInARecordingOfTheReplay) {
   const Called run =
       orthonav({"run", "--headset", "replay:" + recording_.path().string(), "--levels", "L5",
-                "--record", out_.file("again"), "--out", results_in(out_)});
+                "--record", out_.file("again"), "--out", out_.file("out")});
   ASSERT_NE(run.code, 2) << run.err;
   const Called listed = orthonav({"depth", out_.file("again")});
   EXPECT_EQ(listed.out, "long-throw: 44x36 px, 3 frames in 0.1 s, 1 without a pose\n");

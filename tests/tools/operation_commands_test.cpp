@@ -139,7 +139,7 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
   EXPECT_THAT(content_of(out + "/operation.mp4"), HasSubstr("ftyp"));
   const ScratchFolder other;
   const Called run =
-      orthonav({"run", "--levels", "L5", "--frames", "2", "--json", "--out", results_in(other)});
+      orthonav({"run", "--levels", "L5", "--frames", "2", "--json", "--out", other.file("out")});
   EXPECT_EQ(json::parse(run.out)["common_errors"], report["common_errors"]);
   EXPECT_NEAR(registration["common_sd_mm"]["cameras"].get<double>(), 0.46, 0.005);
 }
@@ -147,7 +147,7 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
 TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {
   const ScratchFolder folder;
   const std::string recording = folder.file("recording");
-  const std::string out = results_in(folder);
+  const std::string out = folder.file("out");
   const Called live =
       orthonav({"run", "--headset", "sim:?seed=3", "--no-reference", "--levels", "L5", "--frames",
                 "6", "--json", "--record", recording, "--out", out});
@@ -182,7 +182,7 @@ TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {
 
 TEST(RunCommand, HasThePatientReferenceUnlessItIsDeclined) {
   const ScratchFolder folder;
-  const std::string out = results_in(folder);
+  const std::string out = folder.file("out");
   for (const auto& [flags, has] : std::vector<std::pair<std::vector<std::string>, bool>>{
            {{}, true}, {{"--no-reference"}, false}, {{"--as-published"}, false}}) {
     std::vector<std::string> all = {"run",      "--headset", "sim:?perfect", "--levels", "L4",
@@ -197,7 +197,7 @@ TEST(RunCommand, HasThePatientReferenceUnlessItIsDeclined) {
 
 TEST(RunCommand, CountsWithTheCommonErrorsThatAreGiven) {
   const ScratchFolder folder;
-  const std::string out = results_in(folder);
+  const std::string out = folder.file("out");
   const Called given =
       orthonav({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--frames", "2", "--json",
                 "--out", out, "--tip-sd-mm", "1.5", "--map-sd-mm", "0.2"});
@@ -214,7 +214,7 @@ TEST(RunCommand, CountsWithTheCommonErrorsThatAreGiven) {
 
 TEST(RunCommand, GoesOnWithTheOperationOfAFolderAndWithNoOther) {
   const ScratchFolder folder;
-  const std::string out = results_in(folder);
+  const std::string out = folder.file("out");
   expect_refusal(orthonav({"run", "--resume"}), "--resume requires --out");
   expect_refusal(orthonav({"run", "--resume", "--out", folder.file(".")}),
                  "holds no operation.resume, there is no operation to resume");
@@ -292,7 +292,7 @@ TEST(RodsOnly, NeedNoCaseOnAHeadset) {
 
 TEST(RunCommand, RefusesBadInput) {
   const ScratchFolder folder;
-  const std::string out = results_in(folder);
+  const std::string out = folder.file("out");
   expect_refusal(orthonav({"run", "--levels", "L5", "--headset", "holo:", "--out", out}),
                  "unknown scheme");
   expect_refusal(orthonav({"run", "--levels", "L5", "--headset", "replay:" + folder.file("none"),

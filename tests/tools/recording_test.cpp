@@ -37,7 +37,7 @@ TEST_F(CutRecording, IsReadWithAWarningAndClosedByRepair) {
   EXPECT_THAT(seen.out, AllOf(HasSubstr("2 pairs"), HasSubstr("Recording: cut off"),
                               HasSubstr("VLC RF.tar is cut off at byte ")));
   const Called run = orthonav(
-      {"run", "--levels", "L5", "--headset", "replay:" + cut_, "--out", results_in(folder_)});
+      {"run", "--levels", "L5", "--headset", "replay:" + cut_, "--out", folder_.file("out")});
   EXPECT_THAT(run.err, HasSubstr("warning: the recording was cut off and is read to its last whole "
                                  "pair, 2 in all (VLC RF.tar is cut off"));
   const Called repaired = orthonav({"recording", "repair", cut_, "--json"});

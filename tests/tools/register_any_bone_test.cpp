@@ -114,9 +114,7 @@ TEST_F(RegisterAnyBone, RefusesByTheErrorToExpectAtTheEnds) {
 
 TEST_F(RegisterAnyBone, ExcludesWhatIsOfAVertebra) {
   const std::string needs =
-      "orthonav: register: --any-bone needs --model, and excludes --plan and --cache, which are of "
-      "a vertebra\n";
-  EXPECT_EQ(called(points_, {"--any-bone", "--cache", folder_.file("cache")}).err, needs);
+      "orthonav: register: --any-bone needs --model, and excludes --plan, which is of a vertebra\n";
   EXPECT_EQ(called(points_, {"--any-bone", "--plan", "plan.json"}).err, needs);
   const Called page = called(points_, {"--any-bone", "--report", folder_.file("page.html")});
   EXPECT_EQ(page.code, 2);

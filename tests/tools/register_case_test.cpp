@@ -59,10 +59,7 @@ class RegisterCase : public ::testing::TestWithParam<const char*> {
   }
   Called registered(const std::string& label, const std::vector<Point<World>>& points,
                     std::vector<std::string> more = {"--json", "-"}) const {
-    // Prepared bones are kept for all of these tests; register_test shows that this changes
-    // nothing.
-    std::vector<std::string> arguments{
-        "register", "--level", label, "--points", file_of(points), "--cache", ORTHONAV_TEST_MODELS};
+    std::vector<std::string> arguments{"register", "--level", label, "--points", file_of(points)};
     if (!folder_of_case_.empty()) {
       more.insert(more.end(), {"--case", folder_of_case_ + "/case.json"});
     }
@@ -268,8 +265,7 @@ TEST(RegisterArguments, RefusesWhatDoesNotGoTogetherInOneLineAndWritesNothing) {
       {"--tip-radius-mm", {"--level", "L4", "--tip-radius-mm", "-1"}},
       {"--tip-radius-mm", {"--level", "L4", "--tip-radius-mm", "nan"}},
       {"no/such/page.html", {"--level", "L4", "--report", folder.file("no/such/page.html")}},
-      {"1 points",
-       {"--level", "L4", "--report", folder.file("page.html"), "--cache", ORTHONAV_TEST_MODELS}},
+      {"1 points", {"--level", "L4", "--report", folder.file("page.html")}},
   };
   for (const auto& [expected, more] : cases) {
     std::vector<std::string> arguments{"register", "--points", points};

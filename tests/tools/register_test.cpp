@@ -23,32 +23,6 @@ using ::testing::StartsWith;
 /// Registration errors with that noise are well below this; wrong poses are off by 10 mm and more.
 constexpr double kRight_m = 0.001;
 
-TEST_P(RegisterCommand, SaysTheSameWithAPreparedModelFromItsCache) {
-  const std::string points = points_file(1e3);
-  const auto called = [&](std::vector<std::string> more) {
-    std::vector<std::string> all = {"register", "--model", model_, "--points",
-                                    points,     "--json",  "-"};
-    all.insert(all.end(), more.begin(), more.end());
-    return orthonav(all);
-  };
-  const Called without = called({});
-  const std::string cache = folder_.file("cache/models");
-  for (int time = 0; time < 2; ++time) {
-    const Called with = called({"--cache", cache});
-    EXPECT_EQ(with.code, 0);
-    EXPECT_EQ(with.out, without.out);
-    EXPECT_THAT(with.err, IsEmpty());
-  }
-  ASSERT_EQ(std::distance(std::filesystem::directory_iterator(cache), {}), 1);
-  const std::string kept = std::filesystem::directory_iterator(cache)->path().string();
-  std::filesystem::resize_file(kept, 1000);
-  const Called damaged = called({"--cache", cache});
-  EXPECT_EQ(damaged.code, 0);
-  EXPECT_EQ(damaged.out, without.out);
-  EXPECT_THAT(damaged.err, HasSubstr(kept + ": is damaged"));
-  EXPECT_THAT(called({"--cache", cache}).err, IsEmpty()) << "made anew";
-}
-
 TEST_P(RegisterCommand, FindsThePoseAndWritesEveryFigure) {
   const std::string out = folder_.file("out.json");
   const Called called = orthonav({"register", "--model", model_, "--points", points_file(1e3),

@@ -57,7 +57,7 @@ TEST_P(StandIn, IsRunThrough) {
                           "&standin=" + std::to_string(GetParam().port + 19) + GetParam().uri;
   const ScratchFolder folder;
   const Called run = orthonav({"run", "--headset", uri, "--levels", "L5", "--frames", "30",
-                               "--stats", "--json", "--out", results_in(folder)});
+                               "--stats", "--json", "--out", folder.file("out")});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(nlohmann::json::parse(run.out)["frames"]["displayed"], 30) << run.err;
   EXPECT_THAT(run.err, HasSubstr(GetParam().counts));
@@ -114,7 +114,7 @@ TEST(Doctor, LooksAtTheHeadsetsPorts) {
 TEST(RunWithAHeadset, SaysWhichPortDoesNotAnswer) {
   const ScratchFolder folder;
   const Called called =
-      orthonav({"run", "--headset", "hl2ss://127.0.0.1?port=27400", "--out", results_in(folder)});
+      orthonav({"run", "--headset", "hl2ss://127.0.0.1?port=27400", "--out", folder.file("out")});
   EXPECT_EQ(called.code, 2);
   EXPECT_THAT(called.err, HasSubstr("hl2ss: 127.0.0.1: port 27400: Connection refused"));
 }

@@ -25,7 +25,7 @@ using ::testing::StartsWith;
 /// A recorded run in the simulated room that would take minutes, with all the files that it leaves.
 struct LongRun {
   ScratchFolder folder;
-  std::string out = results_in(folder);
+  std::string out = folder.file("out");
   std::string recording = folder.file("recording");
   StartedCommand command{
       {"run", "--headset", "sim:?seed=3", "--levels", "L5", "--out", out, "--record", recording},
@@ -71,7 +71,7 @@ void expect_a_whole_end(LongRun& run, const std::string& signal) {
   // The recording is whole: it replays to the pair that was finished.
   const ScratchFolder other;
   const test::Called again = orthonav({"run", "--headset", "replay:" + run.recording, "--levels",
-                                       "L5", "--json", "--out", results_in(other)});
+                                       "L5", "--json", "--out", other.file("out")});
   EXPECT_EQ(again.err.find("cut"), std::string::npos) << again.err;
   EXPECT_EQ(json::parse(again.out)["frames"]["displayed"], report["frames"]["displayed"]);
 }
@@ -174,7 +174,7 @@ TEST(StopSignals, AskAtOnceWhereTheSignalCameFirst) {
 TEST(RunCommand, EndsAfterTheTimeAskedFor) {
   const ScratchFolder folder;
   const auto run = orthonav({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--for", "0.49s",
-                             "--json", "--out", results_in(folder)});
+                             "--json", "--out", folder.file("out")});
   ASSERT_EQ(run.code, 0) << run.err;
   // 30 pairs a second: the first, and 15 intervals.
   EXPECT_EQ(json::parse(run.out)["frames"]["displayed"], 16);

@@ -103,7 +103,7 @@ class TrackBadInput : public TrackCommand {
     made_ = std::make_unique<ScratchFolder>();
     const ScratchFolder results;
     const Called made = orthonav({"run", "--levels", "L5", "--frames", "3", "--record",
-                                  made_->file("recording"), "--out", results_in(results)});
+                                  made_->file("recording"), "--out", results.file("out")});
     ASSERT_EQ(made.code, 0) << made.err;
   }
   static void TearDownTestSuite() { made_.reset(); }

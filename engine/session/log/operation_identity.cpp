@@ -1,33 +1,23 @@
 #include "engine/session/log/operation_identity.h"
 
 #include "base/joined.h"
+#include "engine/case/case.h"
 #include "engine/case/tool_file.h"
-#include "engine/io/bit_hash.h"
 
 namespace orthonav::engine {
 namespace {
-
-void add_model(BitHash& hash, const std::string& label, const nav::VertebraModel& model) {
-  hash.add(label);
-  for (const Vec3 vertex_m : model.mesh().vertices_m) {
-    hash.add(vertex_m);
-  }
-  for (const auto& triangle : model.mesh().triangles) {
-    for (const std::uint32_t corner : triangle) {
-      hash.add(static_cast<std::uint64_t>(corner));
-    }
-  }
-}
 
 /// Hashes the models of the levels to be operated, then of the others.
 std::string models_hash(std::span<const LevelState> levels) {
   BitHash hash;
   for (const LevelState& level : levels) {
-    add_model(hash, level.plan.label, *level.plan.model);
+    hash.add(level.plan.label);
+    add(hash, level.plan.model->mesh());
   }
   if (!levels.empty()) {
     for (const NeighbouringLevel& neighbour : levels.front().plan.neighbours) {
-      add_model(hash, neighbour.label, *neighbour.model);
+      hash.add(neighbour.label);
+      add(hash, neighbour.model->mesh());
     }
   }
   return hash.text();

@@ -23,8 +23,7 @@ constexpr double kTiny_m = 1e-9;
 /// longest.
 PlanEditor edited() {
   static const PlanEditor kPrepared = [] {
-    ModelCache models;
-    return PlanEditor::create(phantom({"L4", "L5"}), ScrewSizes::built_in(), models).value();
+    return PlanEditor::create(phantom({"L4", "L5"}), ScrewSizes::built_in()).value();
   }();
   return kPrepared;
 }
@@ -133,8 +132,7 @@ TEST(PlanEditor, RefusesInOneLine) {
     EXPECT_THAT(editor.say(phrase).error().message, HasSubstr("no screw is planned here"))
         << phrase;
   }
-  ModelCache models;
-  EXPECT_FALSE(PlanEditor::create({}, ScrewSizes::built_in(), models).ok());
+  EXPECT_FALSE(PlanEditor::create({}, ScrewSizes::built_in()).ok());
 }
 
 TEST(PlanEditor, PlansAnewAndSavesWhatLoadsAgain) {

@@ -38,8 +38,7 @@ class OperationOnOpenxr : public RuntimeTest {
     traits.frames_kept = 8;
     runtime().reset(traits);
     const engine::Case spine = engine::phantom();
-    engine::ModelCache models;
-    auto operation = engine::plan_operation(spine, {"L5"}, models);
+    auto operation = engine::plan_operation(spine, {"L5"});
     ASSERT_TRUE(operation.ok()) << operation.error().message;
     sim::SimOptions options;
     options.error_model = sim::ErrorModel::perfect();

@@ -1,6 +1,5 @@
 #include "nav/geometry/distance_field.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +16,6 @@ namespace {
 
 using test::crooked_back;
 using test::slab_bone;
-using ::testing::HasSubstr;
 
 constexpr double kCell_m = 0.002;
 constexpr double kMargin_m = 0.014;
@@ -173,6 +171,7 @@ TEST(DistanceField, TakesTheDistanceToOneSurfaceAndTheSignByAnother) {
   const DistanceField field(back.mesh, back.index, bone.index, kCell_m, kMargin_m);
   const Vec3 low = field.bounds().low;
   int negative = 0;
+  int far = 0;
   for (int x = 0; x < 40; ++x) {
     for (int y = 0; y < 20; ++y) {
       const Vec3 node = low + kCell_m * Vec3{x + 1.0, y + 1.0, 20.0};
@@ -181,40 +180,15 @@ TEST(DistanceField, TakesTheDistanceToOneSurfaceAndTheSignByAnother) {
         continue;
       }
       const double right_m = signed_distance_m(back.index, bone.index, node);
-      EXPECT_NEAR(value.distance_m, right_m, 2e-7);  // floats, and the nudge into the cell
+      // Floats, and the nudge into the cell; farther off, the closest point of a neighbour.
+      const bool exact = std::abs(right_m) < 2.0 * kCell_m;
+      EXPECT_NEAR(value.distance_m, right_m, exact ? 2e-7 : 0.1 * kCell_m);
+      far += exact ? 0 : 1;
       negative += right_m < 0.0 ? 1 : 0;
     }
   }
   EXPECT_GT(negative, 50);
-}
-
-TEST(DistanceField, IsRestoredFromItsSamplesToTheBitAndFromNoOthers) {
-  const Surface s(test::sphere({}, 0.02, 12));
-  const DistanceField field = field_of(s);
-  const std::vector<float> samples(field.samples_m().begin(), field.samples_m().end());
-  const auto restored = [&](std::vector<float> from, const Surface& of) {
-    return DistanceField::restored(of.mesh, of.index, of.index, kCell_m, kMargin_m,
-                                   std::move(from));
-  };
-  const auto again = restored(samples, s);
-  ASSERT_TRUE(again.ok()) << again.error().message;
-  Random random(2);
-  for (int i = 0; i < 1000; ++i) {
-    const Vec3 p = anywhere_in(field.bounds(), random);
-    DistanceField::Value a, b;
-    ASSERT_EQ(field.at(p, a), again->at(p, b));
-    EXPECT_EQ(a.distance_m, b.distance_m);
-    EXPECT_EQ(a.gradient, b.gradient);
-  }
-  std::vector<float> fewer = samples;
-  fewer.pop_back();
-  EXPECT_THAT(restored(fewer, s).error().message, HasSubstr("places"));
-  std::vector<float> strange = samples;
-  strange[7] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THAT(restored(strange, s).error().message, HasSubstr("finite"));
-  // A tenth of a millimetre off, in a grid of the same size.
-  EXPECT_THAT(restored(samples, Surface(test::sphere({}, 0.0199, 12))).error().message,
-              HasSubstr("another mesh"));
+  EXPECT_GT(far, 50);
 }
 
 }  // namespace

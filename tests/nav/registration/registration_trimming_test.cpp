@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "nav/geometry/closest_grid.h"
 #include "nav/geometry/principal_axes.h"
 #include "nav/geometry/triangle.h"
 #include "nav/registration/vertebra_model.h"
@@ -115,29 +114,6 @@ TEST(PrincipalAxes, WeighPointsAsTold) {
   const std::vector<Vec3> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const std::vector<double> weights = {1.0, 1.0, 2.0};
   EXPECT_LT((principal_axes(points, weights).centre_m - Vec3{0.25, 0.5, 0}).norm(), 1e-15);
-}
-
-TEST(ClosestGrid, StaysWithinTwiceItsCellOfTheTrueDistance) {
-  const TriangleMesh mesh = test::sphere({0.01, 0, 0.02}, 0.03, 20);
-  const SurfaceIndex surface(mesh);
-  constexpr double kCell_m = 0.003;
-  const ClosestGrid grid(mesh, surface, kCell_m, 0.01);
-  Random random(8);
-  double worst_m = 0.0;
-  for (int i = 0; i < 5000; ++i) {
-    const Vec3 q =
-        Vec3{0.01, 0, 0.02} +
-        Vec3{random.uniform(-0.04, 0.04), random.uniform(-0.04, 0.04), random.uniform(-0.04, 0.04)};
-    const double rough_m = (grid.nearest(q) - q).norm();
-    const double true_m = surface.nearest(q)->distance_m;
-    ASSERT_GE(rough_m, true_m - 1e-15);
-    worst_m = std::max(worst_m, rough_m - true_m);
-  }
-  // From the centre to a corner and back: two half diagonals.
-  EXPECT_LE(worst_m, std::sqrt(3.0) * kCell_m);
-  EXPECT_GT(worst_m, 1e-4);
-  EXPECT_TRUE(grid.nearest({1e9, -1e9, 0}).is_finite());
-  EXPECT_TRUE(grid.nearest({std::nan(""), 0, 0}).is_finite());
 }
 
 }  // namespace

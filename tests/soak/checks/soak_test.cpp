@@ -151,8 +151,7 @@ TEST(MemoryPicture, HasAPointForEachOperation) {
 
 TEST(SoakOperation, GoesThroughItsTroubles) {
   const engine::Case source = engine::phantom();
-  engine::ModelCache models;
-  const auto planned = engine::plan_operation(source, {"L5"}, models);
+  const auto planned = engine::plan_operation(source, {"L5"});
   ASSERT_TRUE(planned.ok());
   const test::TemporaryFolder folder;
   const SoakRow row = soak_operation(source, *planned, 1, folder.path().string());

@@ -131,7 +131,6 @@ TEST(DeviceThatFails, LeavesTheReportsOfWhatWasMeasured) {
   const ScratchFolder folder;
   write_one_level_case(folder.file("case"));
   const std::string out = folder.file("out");
-  bring_prepared_model(out);
   const std::string recording = folder.file("recording");
   record(recording, test_calibration(), std::vector<std::vector<PlacedTag>>(std::size_t{70}));
   StartedCommand command({"run", "--case", folder.file("case"), "--headset",

@@ -71,7 +71,6 @@ TEST(MemoryFaults, InTheMiddleOfARunTheyEndItInOrderWithEveryFileWhole) {
   const ScratchFolder folder;
   write_one_level_case(folder.file("case"));
   const std::string out = folder.file("out");
-  bring_prepared_model(out);
   const std::string recording = folder.file("recording");
   StartedCommand command({"run", "--case", folder.file("case"), "--headset", "sim:?seed=1", "--out",
                           out, "--record", recording});

@@ -28,10 +28,7 @@ using ::testing::IsEmpty;
 /// A folder with an operation that was begun by `run` and interrupted.
 class KeptCommand : public ::testing::Test {
  protected:
-  void SetUp() override {
-    write_one_level_case(folder_.file("case"));
-    bring_prepared_model(out_);
-  }
+  void SetUp() override { write_one_level_case(folder_.file("case")); }
 
   /// The words of a command for that operation.
   std::vector<std::string> words(const std::string& command, std::vector<std::string> more = {}) {

@@ -65,26 +65,6 @@ void write_one_level_case(const fs::path& folder, const std::string& bone) {
              "levels": [{"label": "L5", "model": "L5.stl", "plan": "L5.plan.json"}]})";
 }
 
-void bring_prepared_model(const std::string& out) {
-  const fs::path kept = ORTHONAV_PREPARED_MODEL;
-  if (!fs::exists(kept)) {
-    const ScratchFolder folder;
-    write_one_level_case(folder.file("case"));
-    ASSERT_EQ(orthonav({"run", "--case", folder.file("case"), "--headset", "sim:", "--frames", "1",
-                        "--out", folder.file("out")})
-                  .code,
-              0);
-    // Another test may be doing the same; the first complete one is kept.
-    const fs::path whole = kept.string() + "." + std::to_string(getpid());
-    fs::copy(folder.file("out/models"), whole, fs::copy_options::recursive);
-    std::error_code taken;
-    fs::rename(whole, kept, taken);
-    fs::remove_all(whole);
-  }
-  fs::create_directories(out);
-  fs::copy(kept, out + "/models", fs::copy_options::recursive);
-}
-
 ShortRun::ShortRun() {
   write_one_level_case(folder_.file("case"));
   record(folder_.file("recorded"), test_calibration(),
@@ -93,7 +73,6 @@ ShortRun::ShortRun() {
 
 Called ShortRun::run(const std::function<void()>& prepare) {
   fs::remove_all(written_);
-  bring_prepared_model(out());
   const std::vector<std::string> arguments = {"run",
                                               "--case",
                                               folder_.file("case"),

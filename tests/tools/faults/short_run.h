@@ -13,10 +13,6 @@ namespace orthonav::test {
 /// With another bone it is a case of another patient.
 void write_one_level_case(const std::filesystem::path& folder, const std::string& bone = "L5");
 
-/// Preparing the model of that bone takes longer than a short run: the first run of all tests does
-/// it, and the others copy the result. Makes the folder `out` of a run with it.
-void bring_prepared_model(const std::string& out);
-
 /// `orthonav run` of three recorded pairs that writes everything a run can write.
 class ShortRun {
  public:

@@ -30,7 +30,7 @@ using ::testing::IsSupersetOf;
 TEST(IgtlCommand, ServesARunUntilItEnds) {
   const test::ScratchFolder folder;
   StartedCommand command({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--igtl", "0",
-                          "--out", test::results_in(folder)});
+                          "--out", folder.file("out")});
   int port = 0;
   ASSERT_TRUE(test::wait_until([&] { return (port = served_port(command)) != 0; }));
   test::IgtlClient listener(port);
@@ -57,7 +57,7 @@ TEST(IgtlCommand, ServesARunUntilItEnds) {
 TEST(IgtlCommand, AnswersWhatItsClientsAskWhereTheyMay) {
   const test::ScratchFolder folder;
   StartedCommand command({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--igtl", "0",
-                          "--igtl-commands", "--out", test::results_in(folder)});
+                          "--igtl-commands", "--out", folder.file("out")});
   int port = 0;
   ASSERT_TRUE(test::wait_until([&] { return (port = served_port(command)) != 0; }));
   test::IgtlClient client(port);
@@ -127,7 +127,7 @@ TEST(IgtlCommand, RunsOnToolsThatAnotherProgramTracks) {
       {"name": "guide", "role": "guide", "tip_mm": [0, -150, 0]}]})");
   const test::Called ran =
       test::orthonav({"run", "--headset", sender.uri(), "--tools", tools, "--levels", "L5",
-                      "--frames", "20", "--out", test::results_in(folder)});
+                      "--frames", "20", "--out", folder.file("out")});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("20 frames displayed"));
   EXPECT_THAT(ran.err, HasSubstr("has no button: --clicker names one"));

@@ -17,9 +17,7 @@ constexpr double kMm = 1e-3;
 /// A copy for each test: preparing the bones takes longest.
 engine::PlanEditor edited() {
   static const engine::PlanEditor kPrepared = [] {
-    engine::ModelCache models;
-    return engine::PlanEditor::create(engine::phantom({"L4", "L5"}), engine::ScrewSizes::built_in(),
-                                      models)
+    return engine::PlanEditor::create(engine::phantom({"L4", "L5"}), engine::ScrewSizes::built_in())
         .value();
   }();
   return kPrepared;

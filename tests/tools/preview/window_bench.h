@@ -49,16 +49,15 @@ class WindowTest : public ::testing::Test {
   /// Returns the exit code. `$preview` is the command with a hasty surgeon in a perfect world,
   /// `$server` the X server, which chooses a free display number.
   int shell(const std::string& commands) const {
-    write("commands",
-          "cd '" + folder_.string() +
-              R"('
+    write("commands", "cd '" + folder_.string() +
+                          R"('
 mkfifo number
 Xvfb -displayfd 3 -screen 0 1600x1000x24 -nolisten tcp 3>number >/dev/null 2>&1 & server=$!
 trap 'code=$?; kill $server 2>/dev/null; exit $code' EXIT
 read display <number
 export DISPLAY=:$display
 window=')" ORTHONAV_COMMAND
-              R"( preview --levels L5 --size 640x360 --out . --models )" ORTHONAV_TEST_MODELS R"('
+                          R"( preview --levels L5 --size 640x360 --out .'
 preview="$window --perfect --pace 4"
 plan="$window --plan"
 unset window

@@ -26,7 +26,6 @@
 #include "tools/orthonav/shared/case_source.h"
 #include "tools/orthonav/shared/disk_space.h"
 #include "tools/orthonav/shared/memory_reserve.h"
-#include "tools/orthonav/shared/model_notes.h"
 #include "tools/orthonav/shared/out_folder.h"
 
 namespace orthonav::tools {
@@ -177,8 +176,6 @@ class Demo {
     OperationProgress progress;
     engine::OperationHooks hooks;
     hooks.sink = view_.get();
-    engine::ModelCache models(out_->file("models"));
-    hooks.models = &models;
     hooks.can_stop = [this](std::function<void()> stop) { signals_.on_stop(std::move(stop)); };
     hooks.seen_through = [this](Headset& room) { return arguments_.calibration.on(room); };
     hooks.assembled = [&](engine::AssembledOperation& operation) {
@@ -196,8 +193,6 @@ class Demo {
       view_->look_at(headset, options.sim.error_model);
       onlookers_.look_through(headset.cameras()->calibration());
       began_ = true;
-      models.keep();
-      print_notes(models);
       return arguments_.resume ? Status() : remove_earlier_results(out_->path());
     };
     auto result = engine::run_operation(source, options, hooks);

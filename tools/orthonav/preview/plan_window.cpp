@@ -11,7 +11,6 @@
 #include "tools/orthonav/operation/stopped_run.h"
 #include "tools/orthonav/shared/arguments.h"
 #include "tools/orthonav/shared/case_source.h"
-#include "tools/orthonav/shared/model_notes.h"
 #include "tools/orthonav/shared/plan_figures.h"
 #include "tools/preview/planning/plan_script.h"
 
@@ -62,12 +61,7 @@ Status select_level(const std::vector<std::string>& wanted, engine::PlanEditor& 
 }
 
 Result<engine::PlanEditor> editor_of(const PlanWindowArguments& arguments, engine::Case subject) {
-  engine::ModelCache models(arguments.models);
-  auto editor = engine::PlanEditor::create(std::move(subject), arguments.sizes, models);
-  if (editor) {
-    models.keep();
-    print_notes(models);
-  }
+  auto editor = engine::PlanEditor::create(std::move(subject), arguments.sizes);
   return editor;
 }
 

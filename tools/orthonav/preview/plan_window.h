@@ -19,7 +19,6 @@ struct PlanWindowArguments {
   std::vector<std::string> levels;  ///< the first of them is selected at first
   engine::ScrewSizes sizes;
   std::string script;
-  std::string models;
   preview::PlanOptions options;
 
   /// `--plan`, `--volume` and `--series`; those of `preview` that only concern an operation are

@@ -14,7 +14,6 @@
 #include "tools/orthonav/shared/arguments.h"
 #include "tools/orthonav/shared/case_source.h"
 #include "tools/orthonav/shared/memory_reserve.h"
-#include "tools/orthonav/shared/model_notes.h"
 #include "tools/orthonav/shared/screw_arguments.h"
 #include "tools/orthonav/shared/set_up_arguments.h"
 #include "tools/preview/preview_app.h"
@@ -30,7 +29,6 @@ struct PreviewArguments {
   SetUpArguments set_up;
   ScrewArguments screws;
   std::string script;
-  std::string models;
   std::string profile;
   bool perfect = false;
   std::optional<double> pace;
@@ -113,15 +111,12 @@ int run_until_closed(preview::PreviewApp& app, const std::string& out, StopSigna
 /// Prepares the models, which takes a while, and begins.
 Status open_operation(preview::PreviewApp& app, const PreviewArguments& arguments,
                       preview::OperationSource source) {
-  engine::ModelCache models(arguments.models);
-  auto operation = engine::plan_operation(source.source, arguments.levels, models);
+  auto operation = engine::plan_operation(source.source, arguments.levels);
   if (!operation) {
     return operation.error();
   }
   source.operation = std::move(*operation);
   warn_of_sizes(source.operation, source.screw_sizes);
-  models.keep();
-  print_notes(models);
   return app.open_operation(std::move(source));
 }
 
@@ -156,7 +151,6 @@ int plan_window(const PreviewArguments& arguments, StopSignals& signals) {
   plan.case_folder = arguments.case_folder;
   plan.levels = arguments.levels;
   plan.script = arguments.script;
-  plan.models = arguments.models;
   plan.options.width_px = arguments.options.stage.width_px;
   plan.options.height_px = arguments.options.stage.height_px;
   plan.options.device = arguments.options.stage.device;
@@ -272,8 +266,6 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
   arguments->screws.add_to(*preview);
   arguments->igtl.add_to(*preview);
   arguments->keep.add_to(*preview);
-  preview->add_option("--models", arguments->models, "folder that keeps the prepared models")
-      ->check(some_text());
   arguments->wearer.add_to(*preview);
   add_window_options(*preview, arguments);
   arguments->plan.add_to(*preview);

@@ -180,10 +180,6 @@ void add_inputs(CLI::App& command, RegisterArguments& arguments) {
           "with --any-bone 0.3)")
       ->check(finite_number(0, kLargestModelSd_mm));
   arguments.common.add_to(command, {});
-  command
-      .add_option("--cache", arguments.cache,
-                  "Folder that keeps prepared models for the next time (default: nothing is kept)")
-      ->type_name("DIR");
   add_method_option(command, arguments.method, "registration: best or paper");
 }
 

@@ -3,13 +3,11 @@
 #include <memory>
 
 #include "engine/case/likely_mistakes.h"
-#include "engine/case/model_cache.h"
 #include "engine/case/operation_plan.h"
 #include "engine/case/plan_file.h"
 #include "engine/case/points_file.h"
 #include "engine/io/mesh_file.h"
 #include "tools/orthonav/shared/case_source.h"
-#include "tools/orthonav/shared/model_notes.h"
 #include "tools/orthonav/shared/print_text.h"
 
 namespace orthonav::tools {
@@ -56,8 +54,7 @@ Status load_points(const RegisterArguments& arguments, RegisterInputs& inputs) {
   return scale ? Status{} : Status{Error{arguments.points + ": " + scale.error().message}};
 }
 
-Status load_single_level(const RegisterArguments& arguments, engine::ModelCache& models,
-                         RegisterInputs& inputs) {
+Status load_single_level(const RegisterArguments& arguments, RegisterInputs& inputs) {
   std::optional<engine::Plan> plan;
   if (!arguments.plans.empty()) {
     auto file = engine::load_plan(arguments.plans);
@@ -87,8 +84,8 @@ Status load_single_level(const RegisterArguments& arguments, engine::ModelCache&
     }
   }
   inputs.frame.model_axes = engine::declared_axes(arguments.model).value_or(axes);
-  auto model = arguments.any_bone ? nav::VertebraModel::prepare(*mesh, nav::Bone::kAny)
-                                  : models.prepared(*mesh);
+  auto model = nav::VertebraModel::prepare(
+      *mesh, arguments.any_bone ? nav::Bone::kAny : nav::Bone::kVertebra);
   if (!model) {
     return Error{arguments.model + ": " + model.error().message};
   }
@@ -97,13 +94,12 @@ Status load_single_level(const RegisterArguments& arguments, engine::ModelCache&
 }
 
 /// A loaded case has its models in LPS, whatever the axes of its files.
-Status load_level_of_case(const RegisterArguments& arguments, engine::ModelCache& models,
-                          RegisterInputs& inputs) {
+Status load_level_of_case(const RegisterArguments& arguments, RegisterInputs& inputs) {
   const auto source = load_checked_case(arguments.case_folder);
   if (!source) {
     return source.error();
   }
-  auto operation = engine::plan_operation(*source, {arguments.level}, models);
+  auto operation = engine::plan_operation(*source, {arguments.level});
   if (!operation) {
     return Error{"--level: " + operation.error().message};
   }
@@ -125,10 +121,8 @@ Status check_together(const RegisterArguments& a) {
   if (a.model.empty() && !a.frame.empty()) {
     return Error{"register: --frame needs --model"};
   }
-  if (a.any_bone && (a.model.empty() || !a.plans.empty() || !a.cache.empty())) {
-    return Error{
-        "register: --any-bone needs --model, and excludes --plan and --cache, which are of a "
-        "vertebra"};
+  if (a.any_bone && (a.model.empty() || !a.plans.empty())) {
+    return Error{"register: --any-bone needs --model, and excludes --plan, which is of a vertebra"};
   }
   if (a.any_bone && a.method != "best") {
     return Error{"--any-bone: only the method best registers another bone than a vertebra"};
@@ -158,14 +152,11 @@ Result<RegisterInputs> load_register_inputs(
   if (const Status s = check_points(inputs); !s) {
     return s.error();
   }
-  engine::ModelCache models(arguments.cache);
-  const Status level = arguments.model.empty() ? load_level_of_case(arguments, models, inputs)
-                                               : load_single_level(arguments, models, inputs);
+  const Status level = arguments.model.empty() ? load_level_of_case(arguments, inputs)
+                                               : load_single_level(arguments, inputs);
   if (!level) {
     return level.error();
   }
-  models.keep();
-  print_notes(models);
   return inputs;
 }
 

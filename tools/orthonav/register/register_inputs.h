@@ -25,7 +25,6 @@ struct RegisterArguments {
   bool any_bone = false;  ///< the model may be of another bone than a vertebra
   double tip_radius_mm = 0.0;
   CommonErrorArguments common;
-  std::string cache;  ///< folder of prepared models; empty: nothing is kept
 };
 
 /// The points and the level to be registered.
@@ -36,9 +35,8 @@ struct RegisterInputs {
   std::optional<engine::Axes> points_axes;  ///< if the points' file states its axes
 };
 
-/// Reads and checks every file that the arguments name. Prepared models are kept once all is well;
-/// problems with them are reported on standard error. `check_points` may refuse once the points are
-/// read, before the model is prepared.
+/// Reads and checks every file that the arguments name. `check_points` may refuse once the points
+/// are read, before the model is prepared.
 Result<RegisterInputs> load_register_inputs(
     const RegisterArguments& arguments,
     const std::function<Status(const RegisterInputs&)>& check_points);

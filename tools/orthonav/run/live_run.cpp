@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 
-#include "engine/case/model_cache.h"
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
 #include "engine/live/assembled_operation.h"
@@ -28,7 +27,6 @@
 #include "tools/orthonav/shared/case_source.h"
 #include "tools/orthonav/shared/disk_space.h"
 #include "tools/orthonav/shared/memory_reserve.h"
-#include "tools/orthonav/shared/model_notes.h"
 #include "tools/orthonav/shared/print_text.h"
 #include "tools/orthonav/shared/recorded_pairs.h"
 
@@ -115,11 +113,8 @@ class LiveRun {
       return source.error();
     }
     case_name_ = source->name;
-    if (!arguments_.out.empty()) {
-      models_ = engine::ModelCache((std::filesystem::path(arguments_.out) / "models").string());
-    }
     auto operation = rods_only ? engine::plan_rods_alone(*source)
-                               : engine::plan_operation(*source, arguments_.levels, models_);
+                               : engine::plan_operation(*source, arguments_.levels);
     if (!operation) {
       return operation.error();
     }
@@ -287,8 +282,6 @@ class LiveRun {
     if (const Status kept = files_.keep(*operation_, about()); !kept) {
       return kept;
     }
-    models_.keep();
-    print_notes(models_);
     return {};
   }
 
@@ -321,7 +314,6 @@ class LiveRun {
   engine::Method method_;
   std::optional<std::vector<nav::ToolGeometry>> tools_;
   engine::ScrewSizes sizes_;  ///< of the file, where one was named
-  engine::ModelCache models_;
   std::string case_name_;
   std::unique_ptr<Headset> headset_;
   std::unique_ptr<JoinedHeadset> joined_;  ///< with the clicker and the voice asked for

@@ -4,7 +4,7 @@
 
 namespace orthonav::tools {
 
-/// How much a folder of results may take, in bytes: report, log, prepared models; a film.
+/// How much a folder of results may take, in bytes: report, log; a film.
 inline constexpr double kResultBytes = 1e8;
 inline constexpr double kFilmBytes = 4e8;
 /// A recording of that long at 30 pairs a second; 0: of a usual operation, 20 minutes. Its images
