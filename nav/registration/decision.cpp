@@ -239,10 +239,7 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   std::vector<Tried> tried;
   const auto add_poses = [&](Explanation::Kind kind, const std::string& level,
                              const VertebraModel& of, std::size_t most) {
-    PoseSearchOptions search;
-    search.most = most;
-    search.tip_radius_m = observations.tip_radius_m;
-    const auto found = search_poses(of.search_field(), tips, search);
+    const auto found = search_poses(of.search_field(), tips, observations.tip_radius_m, most);
     for (std::size_t i = 0; i < found.size(); ++i) {
       // Beyond the second, a pose that fits far worse is no rival; the field is right to tenths of
       // a millimetre.

@@ -197,57 +197,60 @@ void move_by(const Vector6& step, CentredPose& pose) {
   pose.centre_m += scale * Vec3{step(0), step(1), step(2)};
 }
 
-/// Robust Gauss-Newton steps of a pose in a distance field (weights by Tukey's biweight).
-class FieldStep {
- public:
-  FieldStep(const DistanceField& field, double tip_radius_m)
-      : field_(&field), tip_radius_m_(tip_radius_m) {}
-  /// False when the points within `width_m` leave the pose undetermined.
-  bool improve(std::span<const Vec3> centred_m, double width_m, CentredPose& pose) const {
-    StepSums sums;
+struct Scored {
+  CentredPose pose;
+  double cost = 0.0;
+};
+
+struct Stage {
+  int steps = 0;
+  double from_width_m = 0.0;  ///< of the robust weight
+  double to_width_m = 0.0;
+};
+
+/// Robust Gauss-Newton steps (weights by Tukey's biweight) with a width that narrows, as long as
+/// the points within it determine the pose. The cost is then the mean of the squared distances,
+/// truncated at the last width.
+void refine(const DistanceField& field, std::span<const Vec3> centred_m, const Stage& stage,
+            double tip_radius_m, Scored& scored) {
+  CentredPose& pose = scored.pose;
+  for (int i = 0; i < stage.steps; ++i) {
+    const double fraction = stage.steps > 1 ? static_cast<double>(i) / (stage.steps - 1) : 1.0;
+    const double width_m =
+        stage.from_width_m * std::pow(stage.to_width_m / stage.from_width_m, fraction);
     const double inverse_width2 = 1.0 / (width_m * width_m);
+    StepSums sums;
     for (const Vec3& p : centred_m) {
       const Vec3 lever_arm = pose.rotation * p;
       DistanceField::Value value;
-      if (!field_->at(lever_arm + pose.centre_m, value)) {
+      if (!field.at(lever_arm + pose.centre_m, value)) {
         continue;
       }
-      const double r = value.distance_m - tip_radius_m_;
+      const double r = value.distance_m - tip_radius_m;
       const double t = 1.0 - r * r * inverse_width2;
-      if (!(t > 0.0)) {
-        continue;
+      if (t > 0.0) {
+        sums.add(lever_arm, value.gradient, r, t * t);
       }
-      sums.add(lever_arm, value.gradient, r, t * t);
     }
     if (sums.used < 6) {
-      return false;
+      break;
     }
     const Vector6 step = damped_step(sums);
     if (!step.allFinite()) {
-      return false;
+      break;
     }
     move_by(step, pose);
-    return true;
   }
-
-  /// Mean of the squared distances, truncated at `width_m`.
-  [[nodiscard]] double cost_m2(std::span<const Vec3> centred_m, double width_m,
-                               const CentredPose& pose) const {
-    double sum = 0.0;
-    for (const Vec3& p : centred_m) {
-      DistanceField::Value value;
-      const double r = field_->at(pose.rotation * p + pose.centre_m, value)
-                           ? std::min(std::abs(value.distance_m - tip_radius_m_), width_m)
-                           : width_m;
-      sum += r * r;
-    }
-    return sum / static_cast<double>(std::max<std::size_t>(1, centred_m.size()));
+  double sum = 0.0;
+  for (const Vec3& p : centred_m) {
+    DistanceField::Value value;
+    const double r = field.at(pose.rotation * p + pose.centre_m, value)
+                         ? std::min(std::abs(value.distance_m - tip_radius_m), stage.to_width_m)
+                         : stage.to_width_m;
+    sum += r * r;
   }
-
- private:
-  const DistanceField* field_;
-  double tip_radius_m_;
-};
+  scored.cost = sum / static_cast<double>(std::max<std::size_t>(1, centred_m.size()));
+}
 
 // ---------------------------------------------------------------------------------------------
 // Every pose.
@@ -280,11 +283,6 @@ std::vector<Mat3> all_rotations() {
   }
   return rotations;
 }
-
-struct Scored {
-  CentredPose pose;
-  double cost = 0.0;
-};
 
 bool is_better(const Scored& a, const Scored& b) { return a.cost < b.cost; }
 
@@ -395,13 +393,12 @@ void keep_best(std::vector<Scored>& poses, std::size_t count) {
 }
 
 /// Drops poses next to a better one; `poses` is sorted.
-void drop_neighbours(std::vector<Scored>& poses, double same_m, double same_rad,
-                     std::size_t count) {
+void drop_neighbours(std::vector<Scored>& poses, std::size_t count) {
   std::vector<Scored> kept;
   for (const Scored& pose : poses) {
     const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const Scored& k) {
-      return (k.pose.centre_m - pose.pose.centre_m).norm() < same_m &&
-             rotation_angle_rad(k.pose.rotation, pose.pose.rotation) < same_rad;
+      return (k.pose.centre_m - pose.pose.centre_m).norm() < kSamePose_m &&
+             rotation_angle_rad(k.pose.rotation, pose.pose.rotation) < kSamePose_rad;
     });
     if (is_new) {
       kept.push_back(pose);
@@ -411,26 +408,6 @@ void drop_neighbours(std::vector<Scored>& poses, double same_m, double same_rad,
     }
   }
   poses = std::move(kept);
-}
-
-struct Stage {
-  int steps = 0;
-  double from_width_m = 0.0;  ///< of the robust weight
-  double to_width_m = 0.0;
-};
-
-void refine(const SearchField& vertebra, std::span<const Vec3> points_m, const Stage& stage,
-            double tip_radius_m, Scored& scored) {
-  FieldStep step(vertebra.field(), tip_radius_m);
-  for (int i = 0; i < stage.steps; ++i) {
-    const double fraction = stage.steps > 1 ? static_cast<double>(i) / (stage.steps - 1) : 1.0;
-    const double width_m =
-        stage.from_width_m * std::pow(stage.to_width_m / stage.from_width_m, fraction);
-    if (!step.improve(points_m, width_m, scored.pose)) {
-      break;
-    }
-  }
-  scored.cost = step.cost_m2(points_m, stage.to_width_m, scored.pose);
 }
 
 constexpr Stage kLast{8, 0.005, 0.003};
@@ -443,35 +420,32 @@ Transform<World, Vertebra> world_from(const CentredPose& pose, Vec3 points_centr
 }  // namespace
 
 std::vector<FoundPose> search_poses(const SearchField& vertebra,
-                                    std::span<const Point<World>> points,
-                                    const PoseSearchOptions& options) {
+                                    std::span<const Point<World>> points, double tip_radius_m,
+                                    std::size_t most) {
   const SpreadPoints spread(points, SearchField::kReach_m);
   if (spread.centred_m().size() < 6) {
     return {};
   }
   std::vector<Scored> poses;
   poses.reserve(2 * kRotations);
-  {
-    PlaceScan places(vertebra, spread.first(kPointsAdded));
-    for (const Mat3& rotation : all_rotations()) {
-      places.scan(rotation, poses);
+  PlaceScan places(vertebra, spread.first(kPointsAdded));
+  for (const Mat3& rotation : all_rotations()) {
+    places.scan(rotation, poses);
+  }
+  const auto refine_all = [&](std::size_t count, const Stage& stage) {
+    for (Scored& pose : poses) {
+      refine(vertebra.field(), spread.first(count), stage, tip_radius_m, pose);
     }
-  }
+  };
   keep_best(poses, kKeptFirst);
-  for (Scored& pose : poses) {
-    refine(vertebra, spread.first(kPointsFirst), {4, 0.012, 0.006}, options.tip_radius_m, pose);
-  }
+  refine_all(kPointsFirst, {4, 0.012, 0.006});
   keep_best(poses, kKeptThen);
-  for (Scored& pose : poses) {
-    refine(vertebra, spread.first(kPointsThen), {6, 0.008, 0.004}, options.tip_radius_m, pose);
-  }
+  refine_all(kPointsThen, {6, 0.008, 0.004});
   keep_best(poses, kKeptThen);
-  drop_neighbours(poses, options.same_m, options.same_rad, kKeptLast);
-  for (Scored& pose : poses) {
-    refine(vertebra, spread.first(kPointsLast), kLast, options.tip_radius_m, pose);
-  }
+  drop_neighbours(poses, kKeptLast);
+  refine_all(kPointsLast, kLast);
   keep_best(poses, kKeptLast);
-  drop_neighbours(poses, options.same_m, options.same_rad, options.most);
+  drop_neighbours(poses, most);
   std::vector<FoundPose> found;
   for (const Scored& pose : poses) {
     found.push_back({world_from(pose.pose, spread.centre_m()), pose.cost});
@@ -495,7 +469,7 @@ FoundPose refined_pose(const SearchField& vertebra, std::span<const Point<World>
   }
   const auto from_world = start.inverse();
   Scored scored{{from_world.rotation(), (from_world * Point<World>{centre_m}).v}, 0.0};
-  refine(vertebra, few_m, kLast, tip_radius_m, scored);
+  refine(vertebra.field(), few_m, kLast, tip_radius_m, scored);
   return {world_from(scored.pose, centre_m), scored.cost};
 }
 

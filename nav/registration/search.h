@@ -15,22 +15,19 @@ struct FoundPose {
   double cost_m2 = 0.0;
 };
 
-struct PoseSearchOptions {
-  std::size_t most = 8;  ///< poses to return
-  /// Two poses closer than both of these count as one.
-  double same_m = 0.003;
-  double same_rad = 0.1;
-  double tip_radius_m = 0.0;  ///< of the ball at the pointer's end; the points are its centre
-};
+/// Two poses closer than both of these count as one.
+inline constexpr double kSamePose_m = 0.003;
+inline constexpr double kSamePose_rad = 0.1;
 
 /// The poses at which the points could lie on the surface, to a few tenths of a millimetre, the
-/// best first. Every orientation (a low-discrepancy set, 12° apart on average; Alexa 2022,
+/// best first, at most `most`. `tip_radius_m`: of the ball at the pointer's end, whose centre the
+/// points are. Every orientation (a low-discrepancy set, 12° apart on average; Alexa 2022,
 /// "Super-Fibonacci spirals") and every place is examined coarsely; hundreds are then refined in
 /// the distance field by robust Gauss-Newton steps. Needs no start, no prior and no axis of the
 /// strokes. Empty for fewer than 6 places that differ.
 [[nodiscard]] std::vector<FoundPose> search_poses(const SearchField& vertebra,
                                                   std::span<const Point<World>> points,
-                                                  const PoseSearchOptions& options = {});
+                                                  double tip_radius_m, std::size_t most);
 
 /// The last of these refinements, from a start within a few millimetres.
 [[nodiscard]] FoundPose refined_pose(const SearchField& vertebra,

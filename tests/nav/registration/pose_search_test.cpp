@@ -21,6 +21,12 @@ using orthonav::test::StrokeVariant;
 constexpr double kFound_m = 0.002;
 constexpr double kFound_rad = 0.06;
 constexpr double kNoise_m = 0.0004;
+constexpr std::size_t kMost = 8;
+
+std::vector<FoundPose> searched(const VertebraModel& model, std::span<const Point<World>> points,
+                                double tip_radius_m = 0.0, std::size_t most = kMost) {
+  return search_poses(model.search_field(), points, tip_radius_m, most);
+}
 
 bool is_found(const FoundPose& pose, const Transform<World, Vertebra>& truth, Point<Vertebra> at) {
   return (pose.world_from_vertebra * at - truth * at).norm() < kFound_m &&
@@ -44,8 +50,8 @@ std::vector<Point<World>> in_world(const std::vector<Vec3>& in_vertebra,
 }
 
 /// Sorted, none twice, no mirror image.
-void expect_in_order(const std::vector<FoundPose>& found, const PoseSearchOptions& options) {
-  EXPECT_LE(found.size(), options.most);
+void expect_in_order(const std::vector<FoundPose>& found, std::size_t most = kMost) {
+  EXPECT_LE(found.size(), most);
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_NEAR(found[i].world_from_vertebra.rotation().determinant(), 1.0, 1e-9);
     EXPECT_TRUE(std::isfinite(found[i].cost_m2));
@@ -70,9 +76,9 @@ TEST_F(SlabSearch, FindsABoxLikeBoneFirstFromAnyFrame) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     Random random(seed);
     const auto truth = anywhere(random);
-    const auto found = search_poses(model_->search_field(), in_world(places_, truth, random));
+    const auto found = searched(*model_, in_world(places_, truth, random));
     ASSERT_FALSE(found.empty());
-    expect_in_order(found, {});
+    expect_in_order(found);
     EXPECT_TRUE(is_found(found[0], truth, {{0, 0, 0}})) << "frame " << seed;
     ASSERT_GT(found.size(), 1U);
     EXPECT_GT(found[1].cost_m2, 1.5 * found[0].cost_m2) << "nothing else is like it";
@@ -86,7 +92,7 @@ TEST_F(SlabSearch, FindsBothPosesOfABoneThatHasTwo) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     Random random(seed);
     const auto truth = anywhere(random);
-    const auto found = search_poses(twofold->search_field(), in_world(places, truth, random));
+    const auto found = searched(*twofold, in_world(places, truth, random));
     ASSERT_GE(found.size(), 2U);
     for (const auto& pose : {truth, truth * half_turn}) {
       EXPECT_TRUE(is_found(found[0], pose, {}) || is_found(found[1], pose, {})) << seed;
@@ -96,28 +102,26 @@ TEST_F(SlabSearch, FindsBothPosesOfABoneThatHasTwo) {
 }
 
 TEST_F(SlabSearch, FindsNoneWithoutPoints) {
-  EXPECT_TRUE(search_poses(model_->search_field(), {}).empty());
-  EXPECT_TRUE(search_poses(model_->search_field(), std::vector<Point<World>>(5)).empty());
+  EXPECT_TRUE(searched(*model_, {}).empty());
+  EXPECT_TRUE(searched(*model_, std::vector<Point<World>>(5)).empty());
   // All in one place: whatever comes out is finite.
   const std::vector<Point<World>> same(3000, {{1, 2, 3}});
-  expect_in_order(search_poses(model_->search_field(), same), {});
+  expect_in_order(searched(*model_, same));
 }
 
 TEST_F(SlabSearch, KeepsToWhatIsAsked) {
   Random random(1);
   const auto truth = anywhere(random);
-  PoseSearchOptions three;
-  three.most = 3;
-  const auto found = search_poses(model_->search_field(), in_world(places_, truth, random), three);
-  expect_in_order(found, three);
+  const auto found = searched(*model_, in_world(places_, truth, random), 0.0, 3);
+  expect_in_order(found, 3);
   ASSERT_EQ(found.size(), 3U);
   const Point<Vertebra> at{{0, 0, 0}};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       EXPECT_TRUE(rotation_angle_rad(found[i].world_from_vertebra.rotation(),
-                                     found[k].world_from_vertebra.rotation()) >= three.same_rad ||
+                                     found[k].world_from_vertebra.rotation()) >= kSamePose_rad ||
                   (found[i].world_from_vertebra * at - found[k].world_from_vertebra * at).norm() >=
-                      three.same_m - 0.001);
+                      kSamePose_m - 0.001);
     }
   }
 }
@@ -130,11 +134,9 @@ TEST_F(SlabSearch, KnowsATipWithARadius) {
   }
   Random random(2);
   const auto truth = anywhere(random);
-  PoseSearchOptions ball;
-  ball.tip_radius_m = kRadius_m;
   const auto points = in_world(centres, truth, random);
-  const auto with = search_poses(model_->search_field(), points, ball);
-  const auto without = search_poses(model_->search_field(), points);
+  const auto with = searched(*model_, points, kRadius_m);
+  const auto without = searched(*model_, points);
   ASSERT_FALSE(with.empty());
   ASSERT_FALSE(without.empty());
   EXPECT_TRUE(is_found(with[0], truth, {}));
@@ -170,8 +172,8 @@ TEST(PhantomSearch, FindsThePoseAmongItsResultsHoweverItWasStroked) {
   for (const StrokeVariant variant : orthonav::test::kStrokeVariants) {
     for (int i = 0; i < 2; ++i, ++seed) {
       const auto strokes = digitize_strokes(mesh, variant, seed).value();
-      const auto found = search_poses(model->search_field(), strokes.tips());
-      expect_in_order(found, {});
+      const auto found = searched(*model, strokes.tips());
+      expect_in_order(found);
       const Point<Vertebra> back{model->reachable_axes().centre_m};
       const auto rank = std::find_if(found.begin(), found.end(),
                                      [&](const FoundPose& pose) {
