@@ -830,19 +830,21 @@ std::vector<Node> scattered(const Node& size) {
     for (const int time : in_time ? std::vector<int>{6, 7, 12} : std::vector<int>{0}) {
       const Node even{share, time};
       out.push_back(even);
-      for (const std::size_t uneven : {kTissue, kStroke, kModel}) {
-        out.push_back(even);
-        out.back()[uneven] = 2;
-        if (uneven == kTissue) {
-          out.back()[kLength] = 3;
+      // Each cause of unevenness as a little and as much: if one alone began as much, it would take
+      // the place of the others, and no way leads back.
+      for (const int much : {2, 4}) {
+        for (const std::size_t uneven : {kTissue, kStroke, kModel}) {
+          out.push_back(even);
+          out.back()[uneven] = much;
+          if (uneven == kTissue) {
+            out.back()[kLength] = 3;
+          }
         }
-      }
-      out.push_back(even);
-      out.back()[kModel] = 4;  // where it is known to be off by more than the noise
-      for (int act = 1; act < size[kAct]; ++act) {
-        out.push_back(even);
-        out.back()[kStroke] = 2;
-        out.back()[kAct] = act;
+        for (int act = 1; act < size[kAct]; ++act) {
+          out.push_back(even);
+          out.back()[kStroke] = much;
+          out.back()[kAct] = act;
+        }
       }
     }
   }
