@@ -17,27 +17,26 @@ DistanceField::DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near,
   }
   bounds_.high = bounds_.low + cell_m * Vec3{size_[0] - 1.0, size_[1] - 1.0, size_[2] - 1.0};
 
-  // Near the surface distances are exact. Farther off, the point closest to one of the neighbours
-  // is the closest one, or nearly (Danielsson 1980, "Euclidean distance mapping").
+  // Near the surface distances are exact. Farther off, one of the neighbours' closest points is the
+  // closest one, or nearly (Danielsson 1980, "Euclidean distance mapping").
   struct Closest {
     Vec3 point_m;
     double distance2 = std::numeric_limits<double>::infinity();
-    bool exact = false;
   };
   const double exact_m = 2.5 * cell_m;
   std::vector<Closest> samples(sample(0, 0, size_[2]));
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (const auto found = near.nearest(place_m(i), exact_m)) {
-      samples[i] = {found->point_m, found->distance_m * found->distance_m, true};
+      samples[i] = {found->point_m, found->distance_m * found->distance_m};
     }
   }
-  // The 13 neighbours that come before a sample in their order, then those that come after it;
-  // twice, since the way from the surface may turn.
+  // Of a sample's 26 neighbours, 13 come before it in their order. Forwards with these, backwards
+  // with the other 13; twice, since the way from the surface may turn.
   for (const int side : {-1, 1, -1, 1}) {
     for (std::size_t k = 0; k < samples.size(); ++k) {
       const std::size_t i = side < 0 ? k : samples.size() - 1 - k;
       Closest& here = samples[i];
-      if (here.exact) {
+      if (here.distance2 <= exact_m * exact_m) {
         continue;
       }
       const auto [x, y, z] = indices(i);
@@ -54,7 +53,7 @@ DistanceField::DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near,
         if (std::isfinite(beside.distance2)) {
           const double distance2 = (beside.point_m - place).squared_norm();
           if (distance2 < here.distance2) {
-            here = {beside.point_m, distance2, false};
+            here = {beside.point_m, distance2};
           }
         }
       }

@@ -9,8 +9,8 @@
 namespace orthonav::nav {
 
 /// Distance to a surface by look-up: sampled on a grid, trilinear in between, negative inside the
-/// bone. Off by a few tenths of a cell where the surface bends within one, and by a little more at
-/// more than two cells from it: good enough for finding poses, not for the last step. Immutable,
+/// bone. Off by a few tenths of a cell where the surface bends within one, and by up to a tenth of
+/// a cell more from 2.5 cells off: good enough for finding poses, not for the last step. Immutable,
 /// thread-safe, no allocation in queries.
 class DistanceField {
  public:
@@ -18,6 +18,7 @@ class DistanceField {
   /// `mesh`, of which `near` is the index, and `margin_m` around it.
   DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near, const SurfaceIndex& bone,
                 double cell_m, double margin_m);
+
   struct Value {
     double distance_m = 0.0;
     Vec3 gradient;  ///< approximately of unit length

@@ -25,7 +25,8 @@ std::optional<BoneSurface::Place> BoneSurface::within(Vec3 query_m, double withi
 }
 
 BoneSurface::Place BoneSurface::at(Vec3 query_m) const {
-  // The field is of a part of the surface and errs by less than this, nearly always.
+  // The field tells the distance to a part of the surface, nearly always to within this; the whole
+  // surface is no farther.
   constexpr double kField_m = 0.001;
   DistanceField::Value value;
   if (model_->search_field().field().at({side_ * query_m.x, query_m.y, query_m.z}, value)) {

@@ -137,11 +137,8 @@ double share_above(const std::vector<double>& ascending, double limit) {
 Transform<World, Vertebra> mirrored_start(const VertebraModel& model,
                                           const Observations& observations,
                                           const Transform<World, Vertebra>& pose) {
-  constexpr double kAside_m = 0.003;
-  constexpr double kTurned_rad = 0.15;
   const auto swapped = [](Vec3 v) { return Vec3{-v.x, v.y, v.z}; };
-  // The points are mirrored in the place of the bone, about its own middle, where the image is its
-  // own; there they are put onto the bone.
+  // The points are mirrored where they lie on the bone, about its midline, and then fitted to it.
   const Vec3 across{2.0 * model.reachable_axes().centre_m.x, 0.0, 0.0};
   const auto from_world = pose.inverse();
   std::vector<Point<World>> mirrored;
@@ -150,24 +147,8 @@ Transform<World, Vertebra> mirrored_start(const VertebraModel& model,
     mirrored.push_back({swapped((from_world * p.tip).v) + across});
     centre_m += mirrored.back().v / static_cast<double>(observations.strokes.size());
   }
-  std::vector<Transform<World, Vertebra>> starts(1);
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {-1.0, 1.0}) {
-      Vec3 along;
-      along[axis] = side;
-      const Mat3 turned = rotation_from_vector(kTurned_rad * along);
-      starts.push_back({Mat3::identity(), kAside_m * along});
-      starts.push_back({turned, centre_m - turned * centre_m});
-    }
-  }
-  FoundPose best{{}, std::numeric_limits<double>::infinity()};
-  for (const Transform<World, Vertebra>& start : starts) {
-    const FoundPose found =
-        refined_pose(model.search_field(), mirrored, start, observations.tip_radius_m);
-    if (found.cost_m2 < best.cost_m2) {
-      best = found;
-    }
-  }
+  const FoundPose best = refined_pose(model.search_field(), mirrored, poses_beside(centre_m),
+                                      observations.tip_radius_m);
   // Swapped back on both sides, it is a rotation of the points onto the mirrored bone.
   const auto onto_bone = best.world_from_vertebra.inverse();
   Mat3 swap = Mat3::identity();
@@ -241,8 +222,8 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
                              const VertebraModel& of, std::size_t most) {
     const auto found = search_poses(of.search_field(), tips, observations.tip_radius_m, most);
     for (std::size_t i = 0; i < found.size(); ++i) {
-      // Beyond the second, a pose that fits far worse is no rival; the field is right to tenths of
-      // a millimetre.
+      // The runner-up is always tried. A later pose that fits far worse in the field, which is
+      // right to tenths of a millimetre, is no rival.
       constexpr double kFarWorseCost = 3.0;
       constexpr double kField_m = 0.0005;
       if (i > 1 &&

@@ -25,9 +25,6 @@ struct Question {
 
 [[nodiscard]] RegistrationLimits limits_of(const Question& question);
 
-/// Two poses that put every target within this distance count as the same.
-inline constexpr double kSameAtTargets_m = 0.002;
-
 /// How far apart two poses put the farthest of the targets.
 [[nodiscard]] double apart_m(const Transform<World, Vertebra>& a,
                              const Transform<World, Vertebra>& b,

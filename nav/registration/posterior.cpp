@@ -830,8 +830,9 @@ std::vector<Node> scattered(const Node& size) {
     for (const int time : in_time ? std::vector<int>{6, 7, 12} : std::vector<int>{0}) {
       const Node even{share, time};
       out.push_back(even);
-      // Each cause of unevenness as a little and as much: if one alone began as much, it would take
-      // the place of the others, and no way leads back.
+      // Each cause of unevenness starts small and large. Were one alone to start large, it would be
+      // the likeliest at once, and from the others, which are then far less likely, nothing is
+      // explored.
       for (const int much : {2, 4}) {
         for (const std::size_t uneven : {kTissue, kStroke, kModel}) {
           out.push_back(even);

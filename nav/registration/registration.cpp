@@ -235,6 +235,7 @@ double effective_points(const Posterior& answer, const Fit& fit) {
 
 /// Whether an explanation is of the answer's own width: the targets are where it puts them, about.
 bool is_width(const Explanation& e, const Decision& d, std::span<const Point<Vertebra>> targets) {
+  constexpr double kSameAtTargets_m = 0.002;
   return e.kind == Explanation::Kind::kAnswer ||
          (e.kind == Explanation::Kind::kOtherPose &&
           apart_m(e.world_from_vertebra, d.answer.world_from_vertebra, targets) < kSameAtTargets_m);

@@ -454,7 +454,7 @@ std::vector<FoundPose> search_poses(const SearchField& vertebra,
 }
 
 FoundPose refined_pose(const SearchField& vertebra, std::span<const Point<World>> points,
-                       const Transform<World, Vertebra>& start, double tip_radius_m) {
+                       std::span<const Transform<World, Vertebra>> starts, double tip_radius_m) {
   const std::size_t step = std::max<std::size_t>(1, points.size() / kPointsLast);
   std::vector<Vec3> few_m;
   for (std::size_t i = 0; i < points.size(); i += step) {
@@ -467,10 +467,32 @@ FoundPose refined_pose(const SearchField& vertebra, std::span<const Point<World>
   for (Vec3& p : few_m) {
     p -= centre_m;
   }
-  const auto from_world = start.inverse();
-  Scored scored{{from_world.rotation(), (from_world * Point<World>{centre_m}).v}, 0.0};
-  refine(vertebra.field(), few_m, kLast, tip_radius_m, scored);
-  return {world_from(scored.pose, centre_m), scored.cost};
+  Scored best{{}, std::numeric_limits<double>::infinity()};
+  for (const Transform<World, Vertebra>& start : starts) {
+    const auto from_world = start.inverse();
+    Scored scored{{from_world.rotation(), (from_world * Point<World>{centre_m}).v}, 0.0};
+    refine(vertebra.field(), few_m, kLast, tip_radius_m, scored);
+    if (is_better(scored, best)) {
+      best = scored;
+    }
+  }
+  return {world_from(best.pose, centre_m), best.cost};
+}
+
+std::vector<Transform<World, Vertebra>> poses_beside(Vec3 centre_m) {
+  constexpr double kAside_m = 0.003;
+  constexpr double kTurned_rad = 0.15;
+  std::vector<Transform<World, Vertebra>> poses(1);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      Vec3 along;
+      along[axis] = side;
+      const Mat3 turned = rotation_from_vector(kTurned_rad * along);
+      poses.push_back({Mat3::identity(), kAside_m * along});
+      poses.push_back({turned, centre_m - turned * centre_m});
+    }
+  }
+  return poses;
 }
 
 }  // namespace orthonav::nav

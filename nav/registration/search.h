@@ -24,14 +24,20 @@ inline constexpr double kSamePose_rad = 0.1;
 /// points are. Every orientation (a low-discrepancy set, 12° apart on average; Alexa 2022,
 /// "Super-Fibonacci spirals") and every place is examined coarsely; hundreds are then refined in
 /// the distance field by robust Gauss-Newton steps. Needs no start, no prior and no axis of the
-/// strokes. Empty for fewer than 6 places that differ.
+/// strokes. Empty where the points lie in fewer than 6 cells of 4 mm.
 [[nodiscard]] std::vector<FoundPose> search_poses(const SearchField& vertebra,
                                                   std::span<const Point<World>> points,
                                                   double tip_radius_m, std::size_t most);
 
-/// The last of these refinements, from a start within a few millimetres.
+/// The best result of the last of these refinements, from starts within a few millimetres; at least
+/// one.
 [[nodiscard]] FoundPose refined_pose(const SearchField& vertebra,
                                      std::span<const Point<World>> points,
-                                     const Transform<World, Vertebra>& start, double tip_radius_m);
+                                     std::span<const Transform<World, Vertebra>> starts,
+                                     double tip_radius_m);
+
+/// Starts for it where World and Vertebra nearly agree: the identity, and shifts by 3 mm and turns
+/// by 9° about a centre to every side.
+[[nodiscard]] std::vector<Transform<World, Vertebra>> poses_beside(Vec3 centre_m);
 
 }  // namespace orthonav::nav

@@ -150,8 +150,9 @@ TEST_F(SlabSearch, RefinesAStartThatIsNear) {
     const Vec3 turn = random.uniform(0.02, 0.05) * (test::random_rotation(random) * Vec3{0, 0, 1});
     const Vec3 shift = 0.002 * (test::random_rotation(random) * Vec3{0, 0, 1});
     const auto start = truth * Transform<Vertebra, Vertebra>(rotation_from_vector(turn), shift);
+    const std::vector starts{start};
     const auto found =
-        refined_pose(model_->search_field(), in_world(places_, truth, random), start, 0.0);
+        refined_pose(model_->search_field(), in_world(places_, truth, random), starts, 0.0);
     for (const Point<Vertebra>& at : {Point<Vertebra>{{0.03, 0.0, 0.02}}, {{-0.03, 0.0, -0.02}}}) {
       EXPECT_LT((found.world_from_vertebra * at - truth * at).norm(), 0.0004) << seed;
       EXPECT_GT((start * at - truth * at).norm(), 0.0004) << "the control";
@@ -160,7 +161,8 @@ TEST_F(SlabSearch, RefinesAStartThatIsNear) {
   }
   // Far from the bone nothing moves it.
   const std::vector<Point<World>> far(50, {{1, 1, 1}});
-  const auto found = refined_pose(model_->search_field(), far, {}, 0.0);
+  const std::vector<Transform<World, Vertebra>> starts(1);
+  const auto found = refined_pose(model_->search_field(), far, starts, 0.0);
   EXPECT_EQ((found.world_from_vertebra * Point<Vertebra>{}).v.norm(), 0.0);
   EXPECT_NEAR(found.cost_m2, 9e-6, 1e-12) << "every point counts as 3 mm off";
 }

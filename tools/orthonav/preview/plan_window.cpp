@@ -60,11 +60,6 @@ Status select_level(const std::vector<std::string>& wanted, engine::PlanEditor& 
   return {};
 }
 
-Result<engine::PlanEditor> editor_of(const PlanWindowArguments& arguments, engine::Case subject) {
-  auto editor = engine::PlanEditor::create(std::move(subject), arguments.sizes);
-  return editor;
-}
-
 int run_window(preview::PlanApp& app, const engine::PlanEditor& editor, StopSignals& signals) {
   if (const Status opened = app.open_window(); !opened) {
     return bad_input(opened.error().message);
@@ -117,7 +112,7 @@ int edit_plan(PlanWindowArguments arguments, StopSignals& signals) {
   if (!scan) {
     return bad_input(scan.error().message);
   }
-  auto editor = editor_of(arguments, *std::move(subject));
+  auto editor = engine::PlanEditor::create(*std::move(subject), arguments.sizes);
   const Status ready = editor ? select_level(arguments.levels, *editor) : Status(editor.error());
   if (!ready) {
     return bad_input(ready.error().message);

@@ -187,7 +187,7 @@ class LiveRun {
     return {};
   }
 
-  /// Checks everything possible before the models are prepared, which takes seconds.
+  /// Checks everything possible before the models are prepared, which takes a while.
   Status check_arguments() {
     if (!is_simulated(arguments_.headset) && arguments_.set_up.tells_surgeon()) {
       return Error{"--guidance and --instrument are for the simulated surgeon (--headset sim:)"};
