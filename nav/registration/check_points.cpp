@@ -196,20 +196,20 @@ CheckVerdict verdict_on(std::span<const CheckPoint> points, const CheckPointRule
   return verdict;
 }
 
-void weigh(const JoinedPlaces& joined, std::span<CheckPoint> points) {
+void weigh(const PressFit& fit, std::span<CheckPoint> points) {
   // Deviations within this many SDs may be chance and are never held against a touch.
   constexpr double kMaxSds = 4.0;
   constexpr double kTouch_m = 0.001;
   constexpr std::size_t kMany = 8;
   constexpr double kMaxWithin = 2.0;
-  const std::size_t before = joined.off_m.size() - points.size();
+  const std::size_t before = fit.off_m.size() - points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double off_m = joined.off_m[before + i];
-    const double limit_m = std::max(kTouch_m, kMaxSds * joined.off_sd_m[before + i]);
+    const double off_m = fit.off_m[before + i];
+    const double limit_m = std::max(kTouch_m, kMaxSds * fit.off_sd_m[before + i]);
     const bool fits = std::abs(off_m) <= limit_m;
     // Among many places, some lie beyond a fixed limit because of model error and the map's drift;
     // comparing each with the prediction from the others is the better test.
-    if (fits && joined.off_m.size() >= kMany &&
+    if (fits && fit.off_m.size() >= kMany &&
         std::abs(points[i].distance_m) <= kMaxWithin * points[i].limit_m) {
       points[i].limit_m = std::max(points[i].limit_m, std::abs(points[i].distance_m));
       points[i].within = true;
@@ -223,19 +223,18 @@ void weigh(const JoinedPlaces& joined, std::span<CheckPoint> points) {
 }
 
 CheckVerdict verdict_on(std::span<const CheckPoint> points, const CheckPointRules& rules,
-                        const JoinedPlaces& joined, const std::optional<NextPlace>& next) {
+                        const Registration& with_them, const std::optional<NextPlace>& next) {
   CheckVerdict verdict = verdict_on(points, rules);
-  const Registration& r = joined.registration;
   const bool worth = next && next->tre_then_m <= (1.0 - rules.least_gain) * next->tre_m;
-  if (verdict.passed && !r.accepted) {
+  if (verdict.passed && !with_them.accepted) {
     verdict.passed = false;
     const bool more = points.size() < kMaxCheckPoints;
     verdict.advice = {more ? CheckAdvice::Kind::kTouchMore : CheckAdvice::Kind::kUncertain, 1,
-                      r.tre_99_m, PoseSearchRegistrationOptions{}.max_tre_99_m};
+                      with_them.tre_99_m, PoseSearchRegistrationOptions{}.max_tre_99_m};
   } else if (verdict.passed && points.size() < rules.enough && worth &&
-             !(r.tre_99_m <= rules.wanted_tre_99_m)) {
+             !(with_them.tre_99_m <= rules.wanted_tre_99_m)) {
     verdict.passed = false;
-    verdict.advice = {CheckAdvice::Kind::kTouchMore, 1, r.tre_99_m, rules.wanted_tre_99_m};
+    verdict.advice = {CheckAdvice::Kind::kTouchMore, 1, with_them.tre_99_m, rules.wanted_tre_99_m};
   }
   return verdict;
 }

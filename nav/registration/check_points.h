@@ -82,13 +82,13 @@ struct CheckVerdict {
   CheckAdvice advice;
 };
 
-/// Judges check points against a registration that includes them; they are the last of its places.
+/// Judges check points against a fit that includes them; they are the last of its places.
 /// From 8 places on, one that agrees with the others may be off by up to twice its limit.
-void weigh(const JoinedPlaces& joined, std::span<CheckPoint> points);
+void weigh(const PressFit& fit, std::span<CheckPoint> points);
 /// The verdict if the registration that includes them must also be certain at the screws. `next`:
 /// what is worth touching after them.
 [[nodiscard]] CheckVerdict verdict_on(std::span<const CheckPoint> points,
-                                      const CheckPointRules& rules, const JoinedPlaces& joined,
+                                      const CheckPointRules& rules, const Registration& with_them,
                                       const std::optional<NextPlace>& next);
 
 /// The verdict on check points alone: a single one that is too far off is enough to reject.

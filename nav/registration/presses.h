@@ -10,6 +10,16 @@
 
 namespace orthonav::nav {
 
+// What pressed places say of a pose that strokes left uncertain. Height y of place p above the bone
+// of the strokes' pose, and the step x from that pose to the true one, are jointly Gaussian:
+//
+//   y = - slope x + gap + f(p) + n        x = share f(strokes) + rest
+//
+// f is the model's error, a field over the bone: the strokes lay on the same wrong model, so that a
+// press beside a stroke tells little. The gap beneath a tip has a part in common. Given f's SD and
+// length, x given y is a Gaussian's conditional (Rasmussen & Williams 2006, section 2.7); over
+// these it is summed, weighted by a prior and by the likelihood of y.
+
 /// A place where the pointer's tip was pressed to the bone, or that a depth camera saw of it.
 struct PressedPlace {
   Point<World> place;
@@ -26,21 +36,16 @@ struct PressModel {
   double height_m = 0.0002;
   double common_sd_m = 0.0002;
   double sd_m = 0.0003;
-  double tip_radius_m = 0.0;
   /// Of places that a depth camera saw: SD of what it is off along its rays.
   double ray_sd_m = 0.0;
-  /// SD along each axis of World's motion relative to the bone between the strokes and the
-  /// registration; and its random walk from then on, m/√s.
+  /// SD along each axis of World's motion relative to the bone between the strokes and the first
+  /// place; and from then on, which is included in the reported uncertainty, but not compared with
+  /// the limits.
   double moved_sd_m = 0.0003;
-  double drift_m_per_sqrt_s = 0.0;
-  /// SD along each axis of its motion since the places were pressed, if the random walk is not part
-  /// of the fit: included in the reported uncertainty, but not compared with the limits.
   double since_sd_m = 0.0;
-  /// If known; otherwise it is estimated from the places, within the usual range of segmentations.
-  std::optional<ModelError> model;
-  /// The model's error where the fit takes it to be smaller than it is: included in the reported
+  /// False: fitted as if the model were exact. Its usual error is included in the reported
   /// uncertainty, but not compared with the limits.
-  std::optional<ModelError> left_out;
+  bool model_in_limits = true;
 };
 
 /// A pressed place, as far as its height depends on it, in the model's frame.
@@ -49,69 +54,26 @@ struct PressedHeight {
   Vec3 up;   ///< unit, out of the bone
   Vec3 ray;  ///< unit, from a camera; zero: pressed
   int view = 0;
-  double time_s = 0.0;
   double sd_m = 0.0;  ///< of this place alone, from tracking and tremor
 };
 
-/// What an error of the model, a field of SD 1 over the bone, does to pressed places: it changes
-/// the height of each, and it has moved the pose of the strokes, against which heights are
-/// measured.
-class FieldCovariance {
- public:
-  /// `length_m`: over which the error is correlated. Keeps a reference to `strokes`.
-  FieldCovariance(const ModelShare& strokes, double length_m, Vec3 centre_m);
-
-  /// Covariance of the pose of the strokes, by rows.
-  [[nodiscard]] const std::array<double, 36>& pose() const { return pose_; }
-  /// Covariance of that pose with the error at a place.
-  [[nodiscard]] std::array<double, 6> with_place(Vec3 at_m) const;
-  /// Covariance of a height with the pose, negated, as the step to the true pose lowers heights.
-  /// `place`: `with_place` there.
-  [[nodiscard]] std::array<double, 6> with_pose(const PressedHeight& at,
-                                                const std::array<double, 6>& place) const;
-  /// Covariance of two heights.
-  [[nodiscard]] double between(const PressedHeight& a, const std::array<double, 6>& place_a,
-                               const PressedHeight& b, const std::array<double, 6>& place_b) const;
-
- private:
-  const ModelShare& strokes_;
-  double length_m_;
-  Vec3 centre_m_;
-  std::array<double, 36> pose_{};
-};
-
-/// What the heights of pressed places say about the pose of the strokes: a Gaussian posterior
-/// (Rasmussen & Williams 2006, section 2.7) whose noise consists of the error of each press, the
-/// model's own error as a field over the bone, and World's random walk. The field is the same as
-/// under the strokes: where their pose shares it (`Registration::model_share`), a press beside a
-/// stroke tells nothing new of it. SD and length of the field are marginalised on a grid, weighted
-/// by a prior and by the likelihood of the heights.
+/// The pose of strokes and presses, and what they say of the model.
 struct PressFit {
   Vec3 centre_m;                        ///< of the step, in the model's frame
-  std::array<double, 6> step{};         ///< translation m, rotation vector rad; from the heights
-  std::array<double, 36> covariance{};  ///< after the step, by rows, of the bone where it lies now
+  std::array<double, 6> step{};         ///< translation m, rotation vector rad; of the points
+  std::array<double, 36> covariance{};  ///< after the step, by rows
+  std::array<double, 36> in_limits{};  ///< the same without the model's error, if it does not count
   /// For each place: its distance from the bone as predicted from all other places and the strokes
   /// (including SD and length of the field), and the SD of that.
   std::vector<double> off_m;
   std::vector<double> off_sd_m;
-  ModelError model;    ///< root mean square SD, mean length
-  double now_s = 0.0;  ///< when the last of the places was pressed
+  double model_sd_m = 0.0;  ///< of the model's error, root mean square
+  ModelError likeliest;     ///< of the model
+  std::vector<PressedHeight> heights;
 
-  /// The pose of the bone as it lies now, given the pose from its strokes.
+  /// The pose of the bone, given the pose from its strokes.
   [[nodiscard]] Transform<World, Vertebra> moved(
       const Transform<World, Vertebra>& world_from_vertebra) const;
-  /// The covariance if each of these places were pressed next.
-  [[nodiscard]] std::vector<std::array<double, 36>> with(std::span<const PressedHeight> next,
-                                                         const PressModel& press) const;
-
-  // With the likeliest field, for `with`.
-  ModelError likeliest;
-  std::vector<PressedHeight> heights;
-  std::vector<double> inverse_1_m2;           ///< of the heights' covariance
-  std::vector<std::array<double, 6>> shared;  ///< covariance of the pose now with each height
-  std::array<double, 36> before{};            ///< of the pose of the strokes, without the field
-  ModelShare strokes;                         ///< how the field is in it
-  std::array<double, 36> likeliest_covariance{};
 };
 
 /// Fits the step of the pose of `strokes`. Without places, the result is that of the strokes, with
@@ -122,32 +84,13 @@ struct PressFit {
                                                   std::span<const PressedPlace> places,
                                                   const PressModel& press);
 
-/// A step of the pose about `centre_m`, from the registered vertebra to the true one.
-[[nodiscard]] inline Transform<Vertebra, Vertebra> moved_by(const std::array<double, 6>& step,
-                                                            Vec3 centre_m) {
-  const Mat3 rotation = orthonormalized(rotation_from_vector({step[3], step[4], step[5]}));
-  return {rotation, centre_m + Vec3{step[0], step[1], step[2]} - rotation * centre_m};
-}
-
-/// A registration that includes pressed places.
-struct JoinedPlaces {
-  Registration registration;
-  /// For each place: its distance from the bone as predicted from all other places and the strokes,
-  /// and the SD of that (leave one out).
-  std::vector<double> off_m;
-  std::vector<double> off_sd_m;
-  ModelError model;  ///< as estimated from the places
-};
-
-/// Includes pressed places, which `fit_presses` has fitted with the same model and strokes, in a
-/// registration: the pose is that of the bone, by strokes and places together, at the time the last
-/// place was pressed, and the uncertainty includes the model's own error. `accepted`, `reasons` and
-/// `provisional` are judged again; everything else measured on the strokes stays. Empty without
-/// places. `targets` as for the registration.
-[[nodiscard]] std::optional<JoinedPlaces> join_places(const VertebraModel& model,
-                                                      const Registration& strokes,
-                                                      const PressFit& fit, const PressModel& press,
-                                                      const PoseSearchRegistrationOptions& options);
+/// The registration that includes pressed places, which were fitted with the same strokes: the pose
+/// is by strokes and places together, and the uncertainty includes the model's own error.
+/// `accepted`, `reasons` and `provisional` are judged again; everything else measured on the
+/// strokes stays.
+[[nodiscard]] Registration with_places(const VertebraModel& model, const Registration& strokes,
+                                       const PressFit& fit, const PressModel& press,
+                                       const PoseSearchRegistrationOptions& options);
 
 /// A place that is worth pressing.
 struct NextPlace {

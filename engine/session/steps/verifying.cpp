@@ -114,22 +114,20 @@ void Verifying::judge(LevelState& level) {
                        ? nav::fit_presses(model, *strokes_, pressed_, press)
                        : std::nullopt;
   if (fit) {
-    joined_ = nav::join_places(model, *strokes_, *fit, press, limits_);
-  }
-  if (joined_) {
+    joined_ = nav::with_places(model, *strokes_, *fit, press, limits_);
     next_ =
         nav::place_to_press(model, *strokes_, level.newest->points, pressed_, *fit, press, limits_);
   }
   if (strokes_->provisional) {
     // The registration includes the touched places, so it is shown with them.
-    put(joined_ ? joined_->registration : *strokes_, level);
+    put(joined_ ? *joined_ : *strokes_, level);
   }
   for (nav::CheckPoint& point : level.check_points) {
     point = nav::check_point(model, level.registration->world_from_vertebra, point.place,
                              options_.check_points);
   }
-  if (joined_) {
-    nav::weigh(*joined_, level.check_points);
+  if (fit) {
+    nav::weigh(*fit, level.check_points);
     verdict_ = nav::verdict_on(level.check_points, options_.check_points, *joined_, next_);
   } else {
     verdict_ = nav::verdict_on(level.check_points, options_.check_points);
@@ -139,20 +137,13 @@ void Verifying::judge(LevelState& level) {
 
 nav::PressModel Verifying::press_model() const {
   nav::PressModel press;
-  if (anchored_) {
-    press.moved_sd_m = std::max(press.moved_sd_m, strokes_->common.map_m);
-    press.drift_m_per_sqrt_s = options_.map_drift_m_per_sqrt_s;
-    return press;
-  }
-  press.model = nav::ModelError{};
-  press.left_out = nav::ModelError{nav::kUsualModelError_m};
-  if (!pressed_.empty()) {
-    const double first_s = pressed_.front().time_s;
-    const double drift = options_.map_drift_m_per_sqrt_s;
-    press.moved_sd_m =
-        std::max(press.moved_sd_m, std::hypot(strokes_->common.map_m, drift * std::sqrt(first_s)));
-    press.since_sd_m = drift * std::sqrt(std::max(0.0, pressed_.back().time_s - first_s));
-  }
+  press.model_in_limits = anchored_;
+  const double first_s = pressed_.empty() ? 0.0 : pressed_.front().time_s;
+  const double last_s = pressed_.empty() ? 0.0 : pressed_.back().time_s;
+  const double drift = options_.map_drift_m_per_sqrt_s;
+  press.moved_sd_m =
+      std::max(press.moved_sd_m, std::hypot(strokes_->common.map_m, drift * std::sqrt(first_s)));
+  press.since_sd_m = drift * std::sqrt(std::max(0.0, last_s - first_s));
   return press;
 }
 
@@ -207,8 +198,8 @@ void Verifying::drop_check(SessionState& work, Timestamp time) {
 void Verifying::accept(SessionState& work, Timestamp time) const {
   LevelState& level = work.level();
   if (joined_) {
-    put(joined_->registration, level);
-    level.newest->registration = joined_->registration;
+    put(*joined_, level);
+    level.newest->registration = *joined_;
   }
   level.accepted = true;
   level.unverified = false;

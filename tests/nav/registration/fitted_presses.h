@@ -7,14 +7,20 @@
 
 namespace orthonav::nav {
 
-/// `join_places` of places that are fitted first.
-inline std::optional<JoinedPlaces> fitted_and_joined(const VertebraModel& model,
-                                                     const Registration& strokes,
-                                                     std::span<const PressedPlace> places,
-                                                     const PoseSearchRegistrationOptions& options,
-                                                     const PressModel& press = {}) {
+struct Joined {
+  PressFit fit;
+  Registration registration;
+};
+
+/// `with_places` of places that are fitted first.
+inline std::optional<Joined> fitted_and_joined(const VertebraModel& model,
+                                               const Registration& strokes,
+                                               std::span<const PressedPlace> places,
+                                               const PoseSearchRegistrationOptions& options,
+                                               const PressModel& press = {}) {
   const auto fit = fit_presses(model, strokes, places, press);
-  return fit ? join_places(model, strokes, *fit, press, options) : std::nullopt;
+  return fit ? std::optional(Joined{*fit, with_places(model, strokes, *fit, press, options)})
+             : std::nullopt;
 }
 
 /// `place_to_press` beside places that are fitted first.

@@ -18,64 +18,6 @@ Vec3 somewhere(Random& random, double scale) {
   return scale * Vec3{random.normal(), random.normal(), random.normal()};
 }
 
-/// Heights and pose as sums over the error at every place have the same covariances.
-TEST(FieldCovariance, IsThatOfTheErrorAtAllPlaces) {
-  constexpr double kLength_m = 0.007;
-  constexpr int kStrokes = 12;
-  constexpr int kPlaces = 3;
-  Random random(4);
-  const Vec3 centre_m = somewhere(random, 0.01);
-  ModelShare strokes;
-  Eigen::Matrix<double, 6, kStrokes + kPlaces> pose = decltype(pose)::Zero();
-  std::vector<Vec3> all;
-  for (int i = 0; i < kStrokes; ++i) {
-    all.push_back(strokes.places_m.emplace_back(somewhere(random, 0.01)));
-    for (double& step : strokes.step.emplace_back()) {
-      step = random.normal();
-    }
-    pose.col(i) = Eigen::Map<const Eigen::Matrix<double, 6, 1>>(strokes.step.back().data());
-  }
-  std::vector<PressedHeight> heights;
-  Eigen::Matrix<double, kPlaces, kStrokes + kPlaces> height = decltype(height)::Zero();
-  for (int k = 0; k < kPlaces; ++k) {
-    PressedHeight& one = heights.emplace_back();
-    one.at_m = all.emplace_back(somewhere(random, 0.01));
-    one.up = somewhere(random, 1.0).normalized();
-    const Vec3 turn = (one.at_m - centre_m).cross(one.up);
-    Eigen::Matrix<double, 1, 6> slope;
-    slope << one.up.x, one.up.y, one.up.z, turn.x, turn.y, turn.z;
-    // A step of the pose to the true one takes away what it was off.
-    height.row(k) = -slope * pose;
-    height(k, kStrokes + k) = 1.0;
-  }
-  Eigen::MatrixXd errors(all.size(), all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      const double x = 2.146193 * (all[i] - all[k]).norm() / kLength_m;
-      errors(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = (1.0 + x) * std::exp(-x);
-    }
-  }
-  const FieldCovariance field(strokes, kLength_m, centre_m);
-  const Eigen::Matrix<double, 6, 6> of_pose = pose * errors * pose.transpose();
-  for (Eigen::Index i = 0; i < 36; ++i) {
-    EXPECT_NEAR(field.pose()[static_cast<std::size_t>(i)], of_pose(i / 6, i % 6), 1e-9);
-  }
-  const Eigen::MatrixXd of_heights = height * errors * height.transpose();
-  const Eigen::MatrixXd of_both = height * errors * pose.transpose();
-  for (std::size_t i = 0; i < kPlaces; ++i) {
-    const auto place = field.with_place(heights[i].at_m);
-    const auto with_pose = field.with_pose(heights[i], place);
-    for (std::size_t k = 0; k < 6; ++k) {
-      EXPECT_NEAR(-with_pose[k],
-                  of_both(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)), 1e-9);
-    }
-    for (std::size_t k = 0; k < kPlaces; ++k) {
-      EXPECT_NEAR(field.between(heights[i], place, heights[k], field.with_place(heights[k].at_m)),
-                  of_heights(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)), 1e-9);
-    }
-  }
-}
-
 double worst_rms_m(const StrokedBone& bone, const PressFit& fit) {
   double worst_m = 0.0;
   for (const Point<Vertebra>& target : bone.options.targets) {
@@ -130,6 +72,96 @@ class SegmentedBone : public StrokedBone {
     return StrokedBone::error_m(r);
   }
 };
+
+/// Against one large Gaussian of everything: the pose of the strokes without the model's error,
+/// that error at every place, and the gap beneath every press.
+TEST(PressFit, IsTheConditionalOfHeightsPoseAndTheModelsErrorTogether) {
+  using Matrix = Eigen::MatrixXd;
+  SegmentedBone bone(2, 0.0005, 0.0);
+  const auto places = bone.pressed(6);
+  const PressModel press;
+  const PressFit fit = fit_presses(bone.model(), bone.registration, places, press).value();
+  const ModelShare& strokes = bone.registration.model_share;
+  const auto m = static_cast<Eigen::Index>(strokes.places_m.size());
+  const auto n = static_cast<Eigen::Index>(places.size());
+  ASSERT_GT(m, 50);
+  const Eigen::Matrix<double, 6, 1> step =
+      Eigen::Map<const Eigen::Matrix<double, 6, 1>>(fit.step.data());
+
+  // Rows: the heights, then the pose. Columns: what they are sums of.
+  Matrix sums = Matrix::Zero(n + 6, 6 + m + 2 * n);
+  Matrix unit =
+      Matrix::Zero(6 + m + 2 * n, 6 + m + 2 * n);  // covariance; the model's error of SD 1
+  sums.block(n, 0, 6, 6).setIdentity();
+  std::vector<Vec3> all_m = strokes.places_m;
+  for (Eigen::Index i = 0; i < m; ++i) {
+    sums.block(n, 6 + i, 6, 1) = Eigen::Map<const Eigen::Matrix<double, 6, 1>>(
+        strokes.step[static_cast<std::size_t>(i)].data());
+  }
+  Eigen::VectorXd above_m(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const PressedHeight& at = fit.heights[static_cast<std::size_t>(i)];
+    all_m.push_back(at.at_m);
+    const Vec3 turned = (at.at_m - fit.centre_m).cross(at.up);
+    Eigen::Matrix<double, 1, 6> slope;
+    slope << at.up.x, at.up.y, at.up.z, turned.x, turned.y, turned.z;
+    // A step to the true pose takes away what the pose is off.
+    sums.row(i) = -slope * sums.bottomRows(6);
+    sums(i, 6 + m + i) = sums(i, 6 + m + n + i) = 1.0;
+    const auto nearest = bone.model().reachable_surface().nearest(at.at_m);
+    const double side = bone.model().surface().contains(at.at_m) ? -1.0 : 1.0;
+    above_m(i) = side * nearest->distance_m - press.height_m - slope.dot(step);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const double apart_m = (at.at_m - fit.heights[static_cast<std::size_t>(k)].at_m).norm();
+      unit(6 + m + n + i, 6 + m + n + k) = std::pow(press.common_sd_m, 2) +
+                                           std::pow(press.sd_m, 2) * std::exp(-apart_m / 0.003) +
+                                           (i == k ? at.sd_m * at.sd_m : 0.0);
+    }
+  }
+  for (Eigen::Index i = 0; i < 36; ++i) {
+    unit(i / 6, i % 6) = strokes.rest[static_cast<std::size_t>(i)];
+  }
+  unit.diagonal().head<3>().array() += press.moved_sd_m * press.moved_sd_m;
+  const auto field_of = [&](double length_m) {
+    Matrix field = Matrix::Zero(unit.rows(), unit.cols());
+    for (Eigen::Index i = 0; i < m + n; ++i) {
+      for (Eigen::Index k = 0; k < m + n; ++k) {
+        const Vec3 apart_m =
+            all_m[static_cast<std::size_t>(i)] - all_m[static_cast<std::size_t>(k)];
+        const double x = 2.146193 / length_m * apart_m.norm();
+        field(6 + i, 6 + k) = (1.0 + x) * std::exp(-x);
+      }
+    }
+    return field;
+  };
+  double weights = 0.0;
+  Matrix mean = Matrix::Zero(6, 1);
+  Matrix squares = Matrix::Zero(6, 6);
+  for (const ModelErrorHypothesis& by : model_error_hypotheses()) {
+    const Matrix both =
+        sums * (unit + std::pow(by.error.sd_m, 2) * field_of(by.error.length_m)) * sums.transpose();
+    const Matrix heights = both.topLeftCorner(n, n);
+    const Matrix gain = both.bottomLeftCorner(6, n) * heights.inverse();
+    const double weight =
+        std::exp(by.log_probability - 0.5 * above_m.dot(heights.inverse() * above_m)) /
+        std::sqrt((1e7 * heights).determinant());
+    const Matrix at = gain * above_m;
+    weights += weight;
+    mean += weight * at;
+    squares += weight * (both.bottomRightCorner(6, 6) - gain * both.topRightCorner(n, 6) +
+                         at * at.transpose());
+  }
+  mean /= weights;
+  const Matrix covariance = squares / weights - mean * mean.transpose();
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    EXPECT_NEAR(step(i), mean(i), 2e-6) << i;
+    for (Eigen::Index k = 0; k < 6; ++k) {
+      EXPECT_NEAR(fit.covariance[static_cast<std::size_t>(6 * i + k)], covariance(i, k),
+                  1e-3 * std::sqrt(covariance(i, i) * covariance(k, k)))
+          << i << " " << k;
+    }
+  }
+}
 
 /// The model is off by as much under a press as under the stroke beside it: both together are
 /// hardly surer than one.
