@@ -16,9 +16,9 @@ namespace orthonav::nav {
 //   y = - slope x + gap + f(p) + n        x = share f(strokes) + rest
 //
 // f is the model's error, a field over the bone: the strokes lay on the same wrong model, so that a
-// press beside a stroke tells little. The gap beneath a tip has a part in common. Given f's SD and
-// length, x given y is a Gaussian's conditional (Rasmussen & Williams 2006, section 2.7); over
-// these it is summed, weighted by a prior and by the likelihood of y.
+// press beside a stroke tells little. The gap beneath a tip has a part in common; n is tracking and
+// tremor. Given f's SD and length, x given y is a Gaussian's conditional (Rasmussen & Williams
+// 2006, section 2.7); over these it is summed, weighted by a prior and by the likelihood of y.
 
 /// A place where the pointer's tip was pressed to the bone, or that a depth camera saw of it.
 struct PressedPlace {
@@ -62,13 +62,13 @@ struct PressFit {
   Vec3 centre_m;                        ///< of the step, in the model's frame
   std::array<double, 6> step{};         ///< translation m, rotation vector rad; of the points
   std::array<double, 36> covariance{};  ///< after the step, by rows
-  std::array<double, 36> in_limits{};  ///< the same without the model's error, if it does not count
+  std::array<double, 36> in_limits{};   ///< what the limits judge (`PressModel::model_in_limits`)
   /// For each place: its distance from the bone as predicted from all other places and the strokes
   /// (including SD and length of the field), and the SD of that.
   std::vector<double> off_m;
   std::vector<double> off_sd_m;
   double model_sd_m = 0.0;  ///< of the model's error, root mean square
-  ModelError likeliest;     ///< of the model
+  ModelError likeliest;     ///< that error; for what follows, it alone is used
   std::vector<PressedHeight> heights;
 
   /// The pose of the bone, given the pose from its strokes.

@@ -137,6 +137,7 @@ void Verifying::judge(LevelState& level) {
 
 nav::PressModel Verifying::press_model() const {
   nav::PressModel press;
+  // On the map no number of places would meet the limits with it.
   press.model_in_limits = anchored_;
   const double first_s = pressed_.empty() ? 0.0 : pressed_.front().time_s;
   const double last_s = pressed_.empty() ? 0.0 : pressed_.back().time_s;

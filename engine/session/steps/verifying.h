@@ -64,10 +64,9 @@ class Verifying {
   std::vector<nav::PressedPlace> pressed_;
   std::size_t pressed_on_ = 0;  ///< the level, by its number in the operation
   Timestamp registered_{};
-  std::optional<nav::Registration>
-      joined_;                          ///< strokes and places; nothing if they can't be joined
-  std::optional<nav::NextPlace> next_;  ///< the most useful one to touch next
-  std::vector<float> residuals_m_;      ///< of its points from the surface, in order
+  std::optional<nav::Registration> joined_;  ///< with the places; nothing if they can't be fitted
+  std::optional<nav::NextPlace> next_;       ///< the most useful one to touch next
+  std::vector<float> residuals_m_;           ///< of its points from the surface, in order
   std::vector<float> unstroked_;
   std::vector<Point<World>> places_;    ///< proposed to be touched first
   std::vector<Point<World>> to_check_;  ///< those of `places_` not touched yet, or one more
