@@ -60,14 +60,10 @@ Result<std::size_t> CameraPort::understand(Bytes said) {
 }
 
 Result<std::vector<std::uint8_t>> CameraPort::pictured(const VideoRequest& request,
+                                                       std::int64_t stream,
                                                        const GreyImage& picture) {
   if (request.profile == VideoProfile::kRaw) {
     return picture.pixels;
-  }
-  std::int64_t stream = 0;
-  {
-    const MutexLock lock(mutex_);
-    stream = stream_;
   }
   // A new client must get a key frame first.
   if (!encoder_ || encoded_stream_ != stream) {
@@ -87,9 +83,11 @@ Result<std::vector<std::uint8_t>> CameraPort::pictured(const VideoRequest& reque
 
 Result<bool> CameraPort::send(const Image& image) {
   std::optional<VideoRequest> request;
+  std::int64_t stream = 0;
   {
     const MutexLock lock(mutex_);
     request = request_;
+    stream = stream_;
   }
   if (!request || images_++ % request->divisor != 0) {
     return false;
@@ -98,7 +96,7 @@ Result<bool> CameraPort::send(const Image& image) {
   if (image.spoil && strikes(faults_.lose)) {
     return false;
   }
-  const auto picture = pictured(*request, *image.picture);
+  const auto picture = pictured(*request, stream, *image.picture);
   if (!picture) {
     return picture.error();
   }
@@ -112,6 +110,10 @@ Result<bool> CameraPort::send(const Image& image) {
   const Fate fate = image.spoil ? spoil(packet, chunks) : Fate::kUntouched;
   if (fate == Fate::kUntouched) {
     chunks.push_back({std::move(packet)});
+  }
+  const MutexLock lock(mutex_);
+  if (!request_ || stream_ != stream) {
+    return false;  // another client may be there, which waits for a calibration
   }
   port_.send(std::move(chunks));
   return fate != Fate::kBroken;

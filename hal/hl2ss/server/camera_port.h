@@ -42,7 +42,8 @@ class CameraPort {
     std::function<std::optional<Transform<World, Rig>>(Duration)> world_from_rig_after;
     bool spoil = true;  ///< faults may be applied to it
   };
-  /// Sends it; returns whether it will arrive whole and rightly stamped.
+  /// Sends it to the client that asked for images, unless it has left meanwhile; returns whether it
+  /// will arrive whole and rightly stamped.
   Result<bool> send(const Image& image);
   [[nodiscard]] std::int64_t faults_done() const { return faults_done_; }
   /// Exposure time sent with each image.
@@ -50,7 +51,8 @@ class CameraPort {
 
  private:
   Result<std::size_t> understand(Bytes said);
-  Result<std::vector<std::uint8_t>> pictured(const VideoRequest& request, const GreyImage& picture);
+  Result<std::vector<std::uint8_t>> pictured(const VideoRequest& request, std::int64_t stream,
+                                             const GreyImage& picture);
   bool strikes(double probability);
   enum class Fate { kUntouched, kLate, kBroken };
   Fate spoil(std::vector<std::uint8_t>& packet, std::vector<Chunk>& chunks);

@@ -89,7 +89,10 @@ Status DepthPort::send(const DepthFrame& frame) {
   if (asked->what == DepthAsked::What::kPicturesWithPoses) {
     append_pose(packet, frame.world_from_rig);
   }
-  port_.send({Chunk{std::move(packet)}});
+  const MutexLock lock(mutex_);
+  if (asked_ && requests_ == request) {
+    port_.send({Chunk{std::move(packet)}});
+  }
   return {};
 }
 

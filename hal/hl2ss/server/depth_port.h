@@ -22,7 +22,8 @@ class DepthPort {
   [[nodiscard]] Port& port() { return port_; }
   [[nodiscard]] DepthStream stream() const { return stream_; }
   [[nodiscard]] bool is_streaming() const;
-  /// Sends a picture; its pose is in the client's World.
+  /// Sends a picture to the client that asked for them, unless it has left meanwhile; its pose is
+  /// in the client's World.
   Status send(const DepthFrame& frame);
 
  private:
