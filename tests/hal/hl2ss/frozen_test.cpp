@@ -134,6 +134,9 @@ AfterSetting set_back(Duration by) {
   ServedRoom room(sim, options);
   const auto headset = room.connect();
   AfterSetting after;
+  if (!headset) {
+    return after;
+  }
   StereoFrame frame;
   EXPECT_TRUE(wait_until([&] {
     const auto next = headset->cameras()->next(frame);
