@@ -21,8 +21,8 @@ using Covariance6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 // ---------------------------------------------------------------------------------------------
 // Covariances of the heights of n places and, last, of the step of the pose.
 
-/// How a step of the pose changes them, as columns: a step to the true pose takes from a height by
-/// what the strokes' pose is off.
+/// How each depends on the step from the strokes' pose to the true one, as columns: a place that
+/// the step raises lies that much lower at the strokes' pose.
 Eigen::Matrix<double, 6, Eigen::Dynamic> moves_of(std::span<const PressedHeight> at,
                                                   Vec3 centre_m) {
   const auto n = static_cast<Index>(at.size());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "tests/nav/registration/fitted_presses.h"
 #include "tests/nav/registration/stroked_bone.h"
 #include "tests/support/stroke_truths.h"
 
@@ -19,12 +20,7 @@ Vec3 somewhere(Random& random, double scale) {
 }
 
 double worst_rms_m(const StrokedBone& bone, const PressFit& fit) {
-  double worst_m = 0.0;
-  for (const Point<Vertebra>& target : bone.options.targets) {
-    worst_m =
-        std::max(worst_m, PoseUncertainty(fit.centre_m, fit.covariance).predicted_tre_m(target));
-  }
-  return worst_m;
+  return nav::worst_rms_m(fit.centre_m, fit.covariance, bone.options.targets);
 }
 
 /// A bone, stroked and pressed, and its model, which a segmentation got wrong.
@@ -90,8 +86,7 @@ TEST(PressFit, IsTheConditionalOfHeightsPoseAndTheModelsErrorTogether) {
 
   // Rows: the heights, then the pose. Columns: what they are sums of.
   Matrix sums = Matrix::Zero(n + 6, 6 + m + 2 * n);
-  Matrix unit =
-      Matrix::Zero(6 + m + 2 * n, 6 + m + 2 * n);  // covariance; the model's error of SD 1
+  Matrix rest = Matrix::Zero(6 + m + 2 * n, 6 + m + 2 * n);  // covariance but for the model's error
   sums.block(n, 0, 6, 6).setIdentity();
   std::vector<Vec3> all_m = strokes.places_m;
   for (Eigen::Index i = 0; i < m; ++i) {
@@ -113,17 +108,17 @@ TEST(PressFit, IsTheConditionalOfHeightsPoseAndTheModelsErrorTogether) {
     above_m(i) = side * nearest->distance_m - press.height_m - slope.dot(step);
     for (Eigen::Index k = 0; k < n; ++k) {
       const double apart_m = (at.at_m - fit.heights[static_cast<std::size_t>(k)].at_m).norm();
-      unit(6 + m + n + i, 6 + m + n + k) = std::pow(press.common_sd_m, 2) +
+      rest(6 + m + n + i, 6 + m + n + k) = std::pow(press.common_sd_m, 2) +
                                            std::pow(press.sd_m, 2) * std::exp(-apart_m / 0.003) +
                                            (i == k ? at.sd_m * at.sd_m : 0.0);
     }
   }
   for (Eigen::Index i = 0; i < 36; ++i) {
-    unit(i / 6, i % 6) = strokes.rest[static_cast<std::size_t>(i)];
+    rest(i / 6, i % 6) = strokes.rest[static_cast<std::size_t>(i)];
   }
-  unit.diagonal().head<3>().array() += press.moved_sd_m * press.moved_sd_m;
+  rest.diagonal().head<3>().array() += press.moved_sd_m * press.moved_sd_m;
   const auto field_of = [&](double length_m) {
-    Matrix field = Matrix::Zero(unit.rows(), unit.cols());
+    Matrix field = Matrix::Zero(rest.rows(), rest.cols());
     for (Eigen::Index i = 0; i < m + n; ++i) {
       for (Eigen::Index k = 0; k < m + n; ++k) {
         const Vec3 apart_m =
@@ -139,7 +134,7 @@ TEST(PressFit, IsTheConditionalOfHeightsPoseAndTheModelsErrorTogether) {
   Matrix squares = Matrix::Zero(6, 6);
   for (const ModelErrorHypothesis& by : model_error_hypotheses()) {
     const Matrix both =
-        sums * (unit + std::pow(by.error.sd_m, 2) * field_of(by.error.length_m)) * sums.transpose();
+        sums * (rest + std::pow(by.error.sd_m, 2) * field_of(by.error.length_m)) * sums.transpose();
     const Matrix heights = both.topLeftCorner(n, n);
     const Matrix gain = both.bottomLeftCorner(6, n) * heights.inverse();
     const double weight =
