@@ -66,18 +66,16 @@ struct Tried {
     return found ? found->log_evidence + log_shafts : kImpossible;
   }
   [[nodiscard]] double log_weight() const { return log_odds + log_evidence(); }
-  void look(const Observations& observations, const Prior& prior, Effort effort,
-            std::unique_ptr<Averaged>& shared, double least_weight = kImpossible) {
-    found = posterior_of(observations, BoneSurface(*model, kind == Explanation::Kind::kMirror),
-                         prior, found ? found->world_from_vertebra : start, effort, shared,
+  void look(const Observations& observations, const Prior& prior, Averaged& averaged, Effort effort,
+            bool tells_hand, double least_weight = kImpossible) {
+    found = posterior_of(averaged, BoneSurface(*model, kind == Explanation::Kind::kMirror),
+                         found ? found->world_from_vertebra : start, effort, tells_hand,
                          least_weight - log_odds);
     if (found) {
-      const double rows = static_cast<double>(
-          std::min(Averaged::kUnits, units_of(observations, Averaged::kUnits).size()));
       shaft_collisions = shaft_collision_fraction(observations, *model, found->world_from_vertebra,
                                                   kind == Explanation::Kind::kMirror);
-      log_shafts =
-          rows * (shaft_collisions * std::log(prior.shaft_in_bone / (1.0 - prior.shaft_in_bone)));
+      log_shafts = averaged.rows() * shaft_collisions *
+                   std::log(prior.shaft_in_bone / (1.0 - prior.shaft_in_bone));
     }
   }
 };
@@ -244,24 +242,23 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   }
   // All under the hand of the first, which is told anew when another pose of the bone, the one that
   // is returned, is better. The end where the first has no posterior.
-  const auto look_at_all = [&](Effort effort, double far_worse, std::unique_ptr<Averaged>& shared) {
-    shared.reset();
-    tried[0].look(observations, prior, effort, shared);
+  Averaged averaged(observations, prior);
+  const auto look_at_all = [&](Effort effort, double far_worse) {
+    tried[0].look(observations, prior, averaged, effort, true);
     if (!tried[0].found) {
       return tried.end();
     }
     auto best = tried.begin();
     for (auto t = tried.begin() + 1; t != tried.end(); ++t) {
-      t->look(observations, prior, effort, shared, tried[0].log_weight() - far_worse);
+      t->look(observations, prior, averaged, effort, false, tried[0].log_weight() - far_worse);
       if (t->kind == Explanation::Kind::kAnswer && t->log_weight() > best->log_weight()) {
         best = t;
       }
     }
     return best;
   };
-  std::unique_ptr<Averaged> rough;
   for (int round = 0; round < 3 && !tried.empty(); ++round) {
-    const auto best = look_at_all(Effort::kRough, kFarWorse, rough);
+    const auto best = look_at_all(Effort::kRough, kFarWorse);
     if (best == tried.begin()) {
       break;
     }
@@ -271,7 +268,7 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
       std::iter_swap(tried.begin(), best);
     }
   }
-  if (tried.empty() || !rough || !tried[0].found) {
+  if (tried.empty() || !tried[0].found) {
     return no_pose;
   }
   const std::size_t own_poses = tried.size();
@@ -285,7 +282,8 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   mirror.start = mirrored_start(model, observations, tried[0].found->world_from_vertebra);
   tried.push_back(mirror);
   for (std::size_t i = own_poses; i < tried.size(); ++i) {
-    tried[i].look(observations, prior, Effort::kRough, rough, tried[0].log_weight() - kFarWorse);
+    tried[i].look(observations, prior, averaged, Effort::kRough, false,
+                  tried[0].log_weight() - kFarWorse);
   }
   // Explanations that are far worse are not looked at closely.
   const double own = tried[0].log_weight();
@@ -311,11 +309,10 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   tried.erase(far, tried.end());
   // Rough looks may have ranked two poses wrongly.
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  std::unique_ptr<Averaged> full;
-  const auto best = look_at_all(Effort::kFull, kNone, full);
+  const auto best = look_at_all(Effort::kFull, kNone);
   if (best != tried.begin() && best != tried.end()) {
     std::iter_swap(tried.begin(), best);
-    look_at_all(Effort::kFull, kNone, full);
+    look_at_all(Effort::kFull, kNone);
   }
   if (!tried[0].found) {
     return no_pose;

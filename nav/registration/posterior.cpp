@@ -9,6 +9,7 @@
 #include <numeric>
 #include <queue>
 #include <set>
+#include <utility>
 
 #include "nav/statistics/median.h"
 
@@ -337,7 +338,9 @@ struct Averaged::Units {
   const Observations& observations;
   const Prior& prior;
   const Hand& hand;
-  std::vector<Unit> units;            ///< those of which enough belongs to the bone
+  std::vector<Unit> given;
+  std::vector<std::size_t> members;   ///< of these, those of which enough belongs to the bone
+  std::vector<Unit> units;            ///< the members
   std::vector<double> points;         ///< of each
   std::vector<std::uint32_t> wanted;  ///< points of all of them
   double within = 0.0;                ///< dimensions of what is within blocks
@@ -346,26 +349,50 @@ struct Averaged::Units {
   /// Of each unit's points, evenly, about `most_points`.
   Units(const Observations& measured, const Prior& known, const Hand& of, std::size_t most,
         std::size_t most_points)
-      : observations(measured), prior(known), hand(of) {
-    constexpr double kLeastOfUnit = 0.25;
-    for (Unit& unit : units_of(measured, most)) {
+      : observations(measured), prior(known), hand(of), given(units_of(measured, most)) {
+    for (Unit& unit : given) {
       const std::size_t every = (unit.points.size() + most_points - 1) / most_points;
-      std::vector<std::uint32_t> kept_points;
-      double sum = 0.0;
+      std::vector<std::uint32_t> some;
       for (std::size_t k = every / 2; k < unit.points.size(); k += every) {
-        kept_points.push_back(unit.points[k]);
-        sum += of.belongs[unit.points[k]];
+        some.push_back(unit.points[k]);
       }
-      if (sum >= kLeastOfUnit * static_cast<double>(kept_points.size())) {
-        unit.points = std::move(kept_points);
-        wanted.insert(wanted.end(), unit.points.begin(), unit.points.end());
-        units.push_back(std::move(unit));
+      unit.points = std::move(some);
+    }
+  }
+
+  /// Takes in what is new of the hand.
+  void tell() {
+    constexpr double kLeastOfUnit = 0.25;
+    const std::vector<std::size_t> before = std::exchange(members, {});
+    units.clear();
+    points.clear();
+    wanted.clear();
+    for (std::size_t k = 0; k < given.size(); ++k) {
+      const Unit& unit = given[k];
+      double sum = 0.0;
+      for (const std::uint32_t i : unit.points) {
+        sum += hand.belongs[i];
+      }
+      if (sum >= kLeastOfUnit * static_cast<double>(unit.points.size())) {
+        members.push_back(k);
+        units.push_back(unit);
         points.push_back(sum);
+        wanted.insert(wanted.end(), unit.points.begin(), unit.points.end());
       }
     }
     has_areas = !units.empty() && units.back().area > 0 && units.back().area < units.back().stroke;
-    if (of.blocks > 0.0) {
-      within = std::max(0.0, of.inliers - static_cast<double>(units.size()));
+    within =
+        hand.blocks > 0.0 ? std::max(0.0, hand.inliers - static_cast<double>(units.size())) : 0.0;
+    for (auto& [node, factor] : factors) {
+      if (factor) {
+        spare.push_back(std::move(factor->root));
+      }
+    }
+    factors.clear();
+    if (members != before) {
+      fields.clear();
+      wandering_noise.clear();
+      acts.clear();
     }
   }
 
@@ -381,6 +408,8 @@ struct Averaged::Units {
     double quadratic_within_m2 = 0.0;
   };
   std::map<Node, std::optional<Factor>> factors;
+  /// Roots of an earlier hand: new memory would cost as much as the sums that are written to it.
+  std::vector<Eigen::MatrixXd> spare;
 
   template <class Key, class Of>
   const Eigen::MatrixXd& kept(std::map<Key, Eigen::MatrixXd>& all, const Key& key, const Of& of) {
@@ -427,25 +456,36 @@ struct Averaged::Units {
     const Mixture mix = mixture(node, prior, observations.in_time);
     const Correlated model{prior.model_length_m, true};
     const auto m = static_cast<Eigen::Index>(units.size());
-    Factor out;
-    Eigen::MatrixXd& c = out.root;
-    c.setZero(m, m);
+    std::vector<std::pair<double, const Eigen::MatrixXd*>> causes;
     if (mix.model > 0.0) {
-      c += mix.model * mix.model * of_field(model);
+      causes.emplace_back(mix.model * mix.model, &of_field(model));
     }
     if (mix.tissue > 0.0) {
-      c += mix.tissue * mix.tissue * of_field(mix.tissue_over);
+      causes.emplace_back(mix.tissue * mix.tissue, &of_field(mix.tissue_over));
     }
     if (mix.white < 1.0) {
-      c += (1.0 - mix.white) * kept(wandering_noise, mix.noise, [&](const Unit& a, const Unit& b) {
-             return a.stroke == b.stroke ? wandering(a, b, mix.noise) : 0.0;
-           });
+      causes.emplace_back(1.0 - mix.white,
+                          &kept(wandering_noise, mix.noise, [&](const Unit& a, const Unit& b) {
+                            return a.stroke == b.stroke ? wandering(a, b, mix.noise) : 0.0;
+                          }));
     }
     if (mix.stroke > 0.0) {
-      c += mix.stroke * mix.stroke * of_act(mix.act);
+      causes.emplace_back(mix.stroke * mix.stroke, &of_act(mix.act));
     }
+    Factor out;
+    Eigen::MatrixXd& c = out.root;
+    if (!spare.empty()) {
+      c.swap(spare.back());
+      spare.pop_back();
+    }
+    c.resize(m, m);
     for (Eigen::Index k = 0; k < m; ++k) {
-      c(k, k) += mix.white / points[static_cast<std::size_t>(k)];
+      auto column = c.col(k).tail(m - k);
+      column.setZero();
+      for (const auto& [variance, correlation] : causes) {
+        column += variance * correlation->col(k).tail(m - k);
+      }
+      column(0) += mix.white / points[static_cast<std::size_t>(k)];
     }
     // In place: a copy would cost as much again in page faults, since hundreds are kept.
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> in_place(c);
@@ -1094,21 +1134,29 @@ void descend(Averaged::Units& units, const BoneSurface& bone, std::span<const No
 
 }  // namespace
 
-Averaged::Averaged(const Observations& observations, const Prior& prior, Hand hand)
-    : hand_(std::move(hand)),
-      few_(std::make_unique<Units>(observations, prior, hand_, 64, 6)),
+Averaged::Averaged(const Observations& observations, const Prior& prior)
+    : few_(std::make_unique<Units>(observations, prior, hand_, 64, 6)),
       all_(std::make_unique<Units>(observations, prior, hand_, kUnits,
-                                   std::max<std::size_t>(1, observations.strokes.size()))) {}
+                                   std::max<std::size_t>(1, observations.strokes.size()))),
+      blocks_(blocks_of(observations, all_->given)) {}
 Averaged::~Averaged() = default;
 
-std::optional<Posterior> posterior_of(const Observations& observations, const BoneSurface& bone,
-                                      const Prior& prior, const Transform<World, Vertebra>& start,
-                                      Effort effort, std::unique_ptr<Averaged>& shared,
-                                      double least) {
+double Averaged::rows() const { return static_cast<double>(std::min(kUnits, all_->given.size())); }
+
+void Averaged::tell(Hand hand) {
+  hand_ = std::move(hand);
+  few_->tell();
+  all_->tell();
+}
+
+std::optional<Posterior> posterior_of(Averaged& averaged, const BoneSurface& bone,
+                                      const Transform<World, Vertebra>& start, Effort effort,
+                                      bool tells_hand, double least) {
   constexpr std::size_t kFewestPoints = 24;
   constexpr double kStands_m = 3e-6;
   constexpr double kNearlyStands_m = 3e-5;
   constexpr double kAgain_m = 0.0001;
+  const Observations& observations = averaged.few().observations;
   if (observations.strokes.size() < kFewestPoints) {
     return std::nullopt;
   }
@@ -1116,10 +1164,8 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   const auto steering = [](std::span<const Node> nodes) {
     return nodes.first(std::min<std::size_t>(4, nodes.size()));
   };
-  const auto blocks = blocks_of(observations, units_of(observations, Averaged::kUnits));
   Transform<Vertebra, World> from_world = start.inverse();
-  const bool told_here = shared == nullptr;
-  const bool full = effort != Effort::kRough;
+  const bool full = effort == Effort::kFull;
   const int most_rounds = full ? 3 : 1;
   // What the points tell of the hand, and where the grid has weight, is looked at where the descent
   // begins and, if that was elsewhere, again where it ends.
@@ -1127,13 +1173,12 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   Touches all;  // where the hand is told
   std::vector<Node> nodes;
   for (int round = 0; round < most_rounds; ++round) {
-    if (told_here) {
+    if (tells_hand) {
       all = touches_at(observations, bone, from_world, {}, nullptr);
-      shared = std::make_unique<Averaged>(observations, prior,
-                                          hand_at(observations, prior, blocks, all));
+      averaged.tell(hand_at(observations, averaged.few().prior, averaged.blocks(), all));
     }
-    Averaged::Units& few = shared->few();
-    here = touches_at(observations, bone, from_world, few.wanted, told_here ? &all : nullptr);
+    Averaged::Units& few = averaged.few();
+    here = touches_at(observations, bone, from_world, few.wanted, tells_hand ? &all : nullptr);
     nodes = explored(few, few.columns_of(here), scattered(size_of_grid(few)), least);
     if (nodes.empty()) {
       return std::nullopt;
@@ -1145,9 +1190,9 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
       break;
     }
   }
-  Averaged::Units& units = full ? shared->all() : shared->few();
+  Averaged::Units& units = full ? averaged.all() : averaged.few();
   if (full) {
-    here = touches_at(observations, bone, from_world, {}, told_here ? &all : &here);
+    here = touches_at(observations, bone, from_world, {}, tells_hand ? &all : &here);
     // Rows that are shorter see shorter fields.
     nodes = explored(units, units.columns_of(here), nodes, kNever);
     descend(units, bone, steering(nodes), 3, kNearlyStands_m, here);
@@ -1158,12 +1203,12 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   }
   sort_by_weight(answers);
   std::vector<EstimatedHeight> heights;
-  if (full && told_here) {
+  if (full && tells_hand) {
     heights = heights_of(units, here, answers);
   }
-  Posterior out = assembled(here, shared->hand(), answers);
+  Posterior out = assembled(here, averaged.hand(), answers);
   out.heights = std::move(heights);
-  if (full && told_here) {
+  if (full && tells_hand) {
     out.model_share = model_share_of(units, here, answers, out);
   }
   return out;

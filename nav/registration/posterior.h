@@ -90,7 +90,7 @@ struct Hand {
 class Averaged {
  public:
   /// Keeps references to both.
-  Averaged(const Observations& observations, const Prior& prior, Hand hand);
+  Averaged(const Observations& observations, const Prior& prior);
   ~Averaged();
   Averaged(const Averaged&) = delete;
   Averaged& operator=(const Averaged&) = delete;
@@ -99,12 +99,19 @@ class Averaged {
   struct Units;
   [[nodiscard]] Units& few() { return *few_; }  ///< some points of each, to tell roughly
   [[nodiscard]] Units& all() { return *all_; }
+  [[nodiscard]] std::span<const std::array<std::uint32_t, kBlock>> blocks() const {
+    return blocks_;
+  }
+  /// How many rows the points are, about: what is counted for each point counts so often.
+  [[nodiscard]] double rows() const;
   [[nodiscard]] const Hand& hand() const { return hand_; }
+  void tell(Hand hand);
 
  private:
   Hand hand_;
   std::unique_ptr<Units> few_;
   std::unique_ptr<Units> all_;
+  std::vector<std::array<std::uint32_t, kBlock>> blocks_;
 };
 
 /// The posterior of the pose under one hypothesis, as a mixture of Gaussians.
@@ -155,13 +162,12 @@ struct OverStandoff {
 /// How closely to look: `kRough` takes little time and tells which hypotheses are far worse.
 enum class Effort : std::uint8_t { kRough, kFull };
 
-/// The posterior near `start`. `shared`: under the hand of the best explanation, for all others to
-/// be compared with it; null: the hand is told by the points at this pose, and is there afterwards.
-/// Empty where the points leave a motion undetermined, or where it is soon plain that the log
-/// evidence is less than `least`.
+/// The posterior near `start`. `tells_hand`: the hand is what the points tell at this pose, and
+/// stays so afterwards; otherwise it is that of the best explanation, for all others to be compared
+/// with it. Empty where the points leave a motion undetermined, or where it is soon plain that the
+/// log evidence is less than `least`.
 [[nodiscard]] std::optional<Posterior> posterior_of(
-    const Observations& observations, const BoneSurface& bone, const Prior& prior,
-    const Transform<World, Vertebra>& start, Effort effort, std::unique_ptr<Averaged>& shared,
-    double least = -std::numeric_limits<double>::infinity());
+    Averaged& averaged, const BoneSurface& bone, const Transform<World, Vertebra>& start,
+    Effort effort, bool tells_hand, double least = -std::numeric_limits<double>::infinity());
 
 }  // namespace orthonav::nav::posterior
