@@ -350,16 +350,6 @@ void judge(const PoseSearchRegistrationOptions& options, Registration& r) {
   r.provisional = is_provisional(r);
 }
 
-double worst_tre_m(const Covariance6& covariance, Vec3 centre_m,
-                   std::span<const Point<Vertebra>> targets) {
-  const PoseUncertainty uncertainty(centre_m, rows_of<36>(covariance));
-  double worst_m = 0.0;
-  for (const Point<Vertebra>& target : targets) {
-    worst_m = std::max(worst_m, uncertainty.predicted_tre_m(target));
-  }
-  return worst_m;
-}
-
 }  // namespace
 
 Registration with_places(const VertebraModel& model, const Registration& strokes,
@@ -416,12 +406,14 @@ std::optional<NextPlace> place_to_press(const VertebraModel& model, const Regist
           before.topLeftCorner(n, n).llt().solve(before.topRightCorner(n, rest + 6));
   const Covariance6 covariance = left.bottomRightCorner<6, 6>();
   const auto targets = targets_of(model, options);
-  NextPlace best{
-      {}, worst_tre_m(covariance, fit.centre_m, targets), std::numeric_limits<double>::infinity()};
+  const auto tre_m = [&](const Covariance6& c) {
+    return worst_tre_m({fit.centre_m, rows_of<36>(c)}, targets);
+  };
+  NextPlace best{{}, tre_m(covariance), std::numeric_limits<double>::infinity()};
   for (Index i = 0; i < rest; ++i) {
     const Pose6 shared = left.col(i).tail<6>();
     const Covariance6 then = covariance - shared * shared.transpose() / left(i, i);
-    const double then_m = worst_tre_m(then, fit.centre_m, targets);
+    const double then_m = tre_m(then);
     if (then_m < best.tre_then_m) {
       best.tre_then_m = then_m;
       best.place = world_from_vertebra * Point<Vertebra>{all[static_cast<std::size_t>(n + i)].at_m};

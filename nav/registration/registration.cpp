@@ -58,15 +58,6 @@ constexpr double kLateral_m = 0.028;
 /// Within this distance of the middle, a place is neither upper nor lower.
 constexpr double kMiddle_m = 0.006;
 
-double tre2_m2(const Matrix6& covariance, Vec3 centre_m, std::span<const Point<Vertebra>> targets) {
-  double worst = 0.0;
-  for (const Point<Vertebra>& target : targets) {
-    const auto m = moves_as<Eigen::Matrix<double, 3, 6>>(target.v - centre_m);
-    worst = std::max(worst, (m * covariance * m.transpose()).trace());
-  }
-  return worst;
-}
-
 Vec3 middle(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
   return (mesh.vertices_m[t[0]] + mesh.vertices_m[t[1]] + mesh.vertices_m[t[2]]) / 3.0;
 }
@@ -138,21 +129,21 @@ void put_weakest(const VertebraModel& model, const PoseUncertainty& uncertainty,
                  std::span<const Point<Vertebra>> targets, Registration& r) {
   const auto covariance = matrix_as<Matrix6>(uncertainty.covariance());
   const Vec3 centre = uncertainty.centre_m();
-  const double before = tre2_m2(covariance, centre, targets);
-  r.weakest = {worst_motion(covariance, centre, targets), std::sqrt(before)};
+  double least_m = worst_tre_m(uncertainty, targets);
+  r.weakest = {worst_motion(covariance, centre, targets), least_m};
   r.stroke_next.reset();
   r.stroke_next_at = {};
   const TriangleMesh& mesh = model.reachable();
   const std::size_t step = std::max<std::size_t>(1, mesh.triangles.size() / 400);
-  double least = before;
   for (std::size_t i = 0; i < mesh.triangles.size(); i += step) {
     const auto& t = mesh.triangles[i];
     const Vec3 at = middle(mesh, t);
     const Vec3 normal =
         triangle_normal({mesh.vertices_m[t[0]], mesh.vertices_m[t[1]], mesh.vertices_m[t[2]]});
-    const double now = tre2_m2(after_touch(covariance, at - centre, normal), centre, targets);
-    if (now < least) {
-      least = now;
+    const Matrix6 then = after_touch(covariance, at - centre, normal);
+    const double then_m = worst_tre_m({centre, rows_of<36>(then)}, targets);
+    if (then_m < least_m) {
+      least_m = then_m;
       r.stroke_next = place_of(model, at);
       r.stroke_next_at = {at};
     }
@@ -336,9 +327,9 @@ std::vector<Point<Vertebra>> targets_of(const VertebraModel& model,
 
 void put_errors(const VertebraModel& model, const PoseUncertainty& own, const CommonErrors& common,
                 std::span<const Point<Vertebra>> targets, Registration& r) {
-  r.predicted_tre_m = r.tre_95_m = r.tre_99_m = 0.0;
+  r.predicted_tre_m = worst_tre_m(own, targets);
+  r.tre_95_m = r.tre_99_m = 0.0;
   for (const Point<Vertebra>& target : targets) {
-    r.predicted_tre_m = std::max(r.predicted_tre_m, own.predicted_tre_m(target));
     r.tre_95_m = std::max(r.tre_95_m, own.tre_quantile_m(target, 0.95));
     r.tre_99_m = std::max(r.tre_99_m, own.tre_quantile_m(target, 0.99));
   }

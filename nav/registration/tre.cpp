@@ -59,6 +59,14 @@ double PoseUncertainty::tre_quantile_m(Point<Vertebra> target, double probabilit
   return std::sqrt(mean * root * root * root);
 }
 
+double worst_tre_m(const PoseUncertainty& uncertainty, std::span<const Point<Vertebra>> targets) {
+  double worst_m = 0.0;
+  for (const Point<Vertebra>& target : targets) {
+    worst_m = std::max(worst_m, uncertainty.predicted_tre_m(target));
+  }
+  return worst_m;
+}
+
 double CommonErrors::sd_m() const { return std::hypot(tip_m, cameras_m, map_m); }
 
 PoseUncertainty with_common(const PoseUncertainty& own, const CommonErrors& common) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "base/tracked.h"
 #include "base/transform.h"
@@ -36,6 +37,10 @@ class PoseUncertainty {
   std::array<double, 36>
       covariance_{};  ///< row-major, of (translation m, rotation rad) about the centre
 };
+
+/// The largest root mean square of the errors to expect at these targets, metres.
+[[nodiscard]] double worst_tre_m(const PoseUncertainty& uncertainty,
+                                 std::span<const Point<Vertebra>> targets);
 
 /// SD along each axis of errors that shift all points equally, by source; 0 if unknown. Residuals
 /// do not show them.
