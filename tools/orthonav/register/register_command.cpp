@@ -175,9 +175,8 @@ void add_inputs(CLI::App& command, RegisterArguments& arguments) {
   command
       .add_option(
           "--model-sd-mm", arguments.model_sd_mm,
-          "SD over the bone by which the model differs from it, at least: one of 0.07, "
-          "0.15, 0.3, 0.6, 1.1 and 2, or the next larger (default: 0, what the points show; "
-          "with --any-bone 0.3)")
+          "SD over the bone by which the model differs from it, at least, 0 to 2 (default: 0, what "
+          "the points show; with --any-bone 0.3)")
       ->check(finite_number(0, kLargestModelSd_mm));
   arguments.common.add_to(command, {});
   add_method_option(command, arguments.method, "registration: best or paper");
