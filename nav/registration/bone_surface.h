@@ -1,9 +1,8 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
-#include "nav/registration/registration.h"
+#include "nav/registration/vertebra_model.h"
 
 namespace orthonav::nav::posterior {
 
@@ -30,8 +29,6 @@ class BoneSurface {
   /// The sum of the two principal curvatures about a place of the surface, convex positive, as seen
   /// from points that lie `aside_m` beside it; `out`: unit, away from the bone there.
   [[nodiscard]] double curvature_1_m(Vec3 place_m, Vec3 out, double aside_m) const;
-
-  [[nodiscard]] const VertebraModel& model() const { return *model_; }
 
  private:
   [[nodiscard]] std::optional<Place> within(Vec3 query_m, double within_m) const;

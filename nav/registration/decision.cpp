@@ -4,7 +4,6 @@
 #include <cmath>
 #include <Eigen/Dense>
 #include <limits>
-#include <memory>
 
 #include "base/random.h"
 #include "base/reason.h"
@@ -66,16 +65,17 @@ struct Tried {
     return found ? found->log_evidence + log_shafts : kImpossible;
   }
   [[nodiscard]] double log_weight() const { return log_odds + log_evidence(); }
-  void look(const Observations& observations, const Prior& prior, Averaged& averaged, Effort effort,
-            bool tells_hand, double least_weight = kImpossible) {
+  void look(Averaged& averaged, Effort effort, bool tells_hand, double least_weight = kImpossible) {
     found = posterior_of(averaged, BoneSurface(*model, kind == Explanation::Kind::kMirror),
                          found ? found->world_from_vertebra : start, effort, tells_hand,
                          least_weight - log_odds);
     if (found) {
-      shaft_collisions = shaft_collision_fraction(observations, *model, found->world_from_vertebra,
-                                                  kind == Explanation::Kind::kMirror);
-      log_shafts = averaged.rows() * shaft_collisions *
-                   std::log(prior.shaft_in_bone / (1.0 - prior.shaft_in_bone));
+      shaft_collisions =
+          shaft_collision_fraction(averaged.observations(), *model, found->world_from_vertebra,
+                                   kind == Explanation::Kind::kMirror);
+      log_shafts =
+          averaged.rows() * shaft_collisions *
+          std::log(averaged.prior().shaft_in_bone / (1.0 - averaged.prior().shaft_in_bone));
     }
   }
 };
@@ -192,22 +192,32 @@ double shaft_collision_fraction(const Observations& observations, const Vertebra
   return looked_at > 0.0 ? through / looked_at : 0.0;
 }
 
-RegistrationLimits limits_of(const Question& question) {
-  constexpr double kOutlierPower = 18.0;  // 1 of 20 points on average, 3 of 10 once in 600
+}  // namespace orthonav::nav::posterior
+
+namespace orthonav::nav {
+
+RegistrationLimits registration_limits() {
+  using posterior::kMayBeWrong;
+  constexpr double kLeastPredicted = 1e-3;  // of data like these, by the prior
+  constexpr double kOutlierPower = 18.0;    // 1 of 20 points on average, 3 of 10 once in 600
+  const posterior::Prior prior;
   // The log ratio at which an explanation with these odds is as probable as it may be.
-  const auto takes_too_much = [&](double odds) {
-    return std::log(question.may_be_wrong / (1.0 - question.may_be_wrong) / odds);
+  const auto takes_too_much = [](double odds) {
+    return std::log(kMayBeWrong / (1.0 - kMayBeWrong) / odds);
   };
-  return {scatter_exceeded_m(question.prior, question.least_predicted),
-          std::pow(question.least_predicted, 1.0 / kOutlierPower),
+  return {scatter_exceeded_m(prior, kLeastPredicted),
+          std::pow(kLeastPredicted, 1.0 / kOutlierPower),
           // As if the share were drawn from an exponential density with the prior's mean.
-          -question.prior.shaft_in_bone * std::log(question.least_predicted), -takes_too_much(1.0),
-          takes_too_much(question.prior.mirror_odds)};
+          -prior.shaft_in_bone * std::log(kLeastPredicted), -takes_too_much(1.0),
+          takes_too_much(prior.mirror_odds)};
 }
+
+}  // namespace orthonav::nav
+
+namespace orthonav::nav::posterior {
 
 Result<Decision> decided(const VertebraModel& model, const Observations& observations,
                          const Question& question) {
-  constexpr std::size_t kFewestPoints = 100;
   const Prior& prior = question.prior;
   const std::vector<Point<World>> tips = tips_of(observations);
   if (const Status s = validate_points(tips, kFewestPoints, model.bone()); !s) {
@@ -244,20 +254,20 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   // is returned, is better. The end where the first has no posterior.
   Averaged averaged(observations, prior);
   const auto look_at_all = [&](Effort effort, double far_worse) {
-    tried[0].look(observations, prior, averaged, effort, true);
+    tried[0].look(averaged, effort, true);
     if (!tried[0].found) {
       return tried.end();
     }
     auto best = tried.begin();
     for (auto t = tried.begin() + 1; t != tried.end(); ++t) {
-      t->look(observations, prior, averaged, effort, false, tried[0].log_weight() - far_worse);
+      t->look(averaged, effort, false, tried[0].log_weight() - far_worse);
       if (t->kind == Explanation::Kind::kAnswer && t->log_weight() > best->log_weight()) {
         best = t;
       }
     }
     return best;
   };
-  for (int round = 0; round < 3 && !tried.empty(); ++round) {
+  for (int swaps = 0; swaps < 3 && !tried.empty();) {
     const auto best = look_at_all(Effort::kRough, kFarWorse);
     if (best == tried.begin()) {
       break;
@@ -266,6 +276,7 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
       tried.erase(tried.begin());
     } else {
       std::iter_swap(tried.begin(), best);
+      ++swaps;
     }
   }
   if (tried.empty() || !tried[0].found) {
@@ -282,8 +293,7 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   mirror.start = mirrored_start(model, observations, tried[0].found->world_from_vertebra);
   tried.push_back(mirror);
   for (std::size_t i = own_poses; i < tried.size(); ++i) {
-    tried[i].look(observations, prior, averaged, Effort::kRough, false,
-                  tried[0].log_weight() - kFarWorse);
+    tried[i].look(averaged, Effort::kRough, false, tried[0].log_weight() - kFarWorse);
   }
   // Explanations that are far worse are not looked at closely.
   const double own = tried[0].log_weight();
@@ -299,6 +309,7 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
     t = same ? tried.erase(t) : t + 1;
   }
   const auto far = std::stable_partition(tried.begin() + 1, tried.end(), is_close);
+  // They take e^-25 of the probability at most: how far off they are is not measured.
   std::vector<Explanation> far_worse;
   for (auto t = far; t != tried.end(); ++t) {
     if (t->found) {
@@ -325,6 +336,14 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   // The same bone of another size is an explanation of its own.
   const auto odds = [](double log_odds) { return std::exp(std::min(log_odds, 300.0)); };
   const auto errors = errors_m(out.answer, answer, question.targets);
+  // Of all poses of the bone: an error, and its weight.
+  std::vector<std::pair<double, double>> own_errors;
+  const auto add_errors = [&](const std::vector<double>& all_m, double weight) {
+    for (const double error_m : all_m) {
+      own_errors.emplace_back(error_m, weight);
+    }
+  };
+  add_errors(errors, 1.0 - prior.size_share);
   out.explanations.push_back({Explanation::Kind::kAnswer,
                               {},
                               1.0 - prior.size_share,
@@ -334,13 +353,12 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   const auto size_below = [&](double size) {
     return normal_cdf(std::log(size / out.answer.size) / std::max(1e-9, out.answer.size_sd));
   };
-  out.explanations.push_back(
-      {Explanation::Kind::kSize,
-       {},
-       prior.size_share * odds(out.answer.size_log_evidence),
-       1.0 - (size_below(1.0 + question.size_off) - size_below(1.0 - question.size_off)),
-       out.answer.size_log_evidence,
-       answer});
+  out.explanations.push_back({Explanation::Kind::kSize,
+                              {},
+                              prior.size_share * odds(out.answer.size_log_evidence),
+                              1.0 - (size_below(1.0 + kMaxSizeOff) - size_below(1.0 - kMaxSizeOff)),
+                              out.answer.size_log_evidence,
+                              answer});
   for (std::size_t i = 1; i < tried.size(); ++i) {
     const Tried& t = tried[i];
     if (!t.found) {
@@ -350,12 +368,16 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
     if (other_pose && apart_m(t.found->world_from_vertebra, answer, question.targets) < kSame_m) {
       continue;
     }
-    out.explanations.push_back(
-        {other_pose ? Explanation::Kind::kOtherPose : t.kind, t.level,
-         odds(t.log_weight() - tried[0].log_weight()),
-         other_pose ? share_above(errors_m(*t.found, answer, question.targets), question.most_m)
-                    : 1.0,
-         t.log_evidence() - tried[0].log_evidence(), t.found->world_from_vertebra});
+    const double weight = odds(t.log_weight() - tried[0].log_weight());
+    double wrong = 1.0;
+    if (other_pose) {
+      const auto other_errors = errors_m(*t.found, answer, question.targets);
+      wrong = share_above(other_errors, question.most_m);
+      add_errors(other_errors, weight);
+    }
+    out.explanations.push_back({other_pose ? Explanation::Kind::kOtherPose : t.kind, t.level,
+                                weight, wrong, t.log_evidence() - tried[0].log_evidence(),
+                                t.found->world_from_vertebra});
   }
   for (Explanation& e : far_worse) {
     e.kind = e.kind == Explanation::Kind::kAnswer ? Explanation::Kind::kOtherPose : e.kind;
@@ -371,18 +393,26 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
     out.wrong += e.probability * e.wrong;
   }
   out.inlier_fraction = out.answer.hand.inliers / static_cast<double>(tips.size());
-  const RegistrationLimits limits = limits_of(question);
-  out.accepted = out.wrong <= question.may_be_wrong &&
-                 out.shaft_collision_fraction <= limits.shaft_collision_fraction &&
-                 out.answer.hand.spread_m <= limits.noise_m &&
-                 out.inlier_fraction >= limits.inlier_fraction;
+  const RegistrationLimits limits = registration_limits();
+  out.accepted =
+      out.wrong <= kMayBeWrong && out.shaft_collision_fraction <= limits.shaft_collision_fraction &&
+      out.answer.hand.spread_m <= limits.noise_m && out.inlier_fraction >= limits.inlier_fraction;
   double squares_m2 = 0.0;
   for (const double e : errors) {
     squares_m2 += e * e / static_cast<double>(errors.size());
   }
   out.rms_m = std::sqrt(squares_m2);
-  out.within_95_m = errors[(errors.size() - 1) * 95 / 100];
-  out.within_99_m = errors[(errors.size() - 1) * 99 / 100];
+  std::sort(own_errors.begin(), own_errors.end());
+  double all = 0.0;
+  for (const auto& [error_m, weight] : own_errors) {
+    all += weight;
+  }
+  double below = 0.0;
+  for (const auto& [error_m, weight] : own_errors) {
+    out.within_95_m = below <= 0.95 * all ? error_m : out.within_95_m;
+    out.within_99_m = below <= 0.99 * all ? error_m : out.within_99_m;
+    below += weight;
+  }
   return out;
 }
 

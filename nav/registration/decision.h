@@ -11,19 +11,20 @@
 
 namespace orthonav::nav::posterior {
 
-/// What else the points may be of.
+/// What is asked of the points: where the pose must be certain, how certain, and what else they may
+/// be of.
 struct Question {
   /// Where the pose must be certain, at least one: the entries and targets of the plan.
   std::vector<Point<Vertebra>> targets;
   std::vector<NeighbourLevel> neighbours;
   Prior prior;
-  double most_m = 0.002;          ///< an error at any target above it is wrong
-  double may_be_wrong = 0.01;     ///< the most probability of that
-  double size_off = 0.015;        ///< a model farther from the bone's size is wrong
-  double least_predicted = 1e-3;  ///< of data like these, by the prior
+  double most_m = 0.002;  ///< an error at any target above it is wrong
 };
 
-[[nodiscard]] RegistrationLimits limits_of(const Question& question);
+/// The most probability of a wrong pose.
+inline constexpr double kMayBeWrong = 0.01;
+/// A model farther from the bone's size is wrong.
+inline constexpr double kMaxSizeOff = 0.015;
 
 /// How far apart two poses put the farthest of the targets.
 [[nodiscard]] double apart_m(const Transform<World, Vertebra>& a,
@@ -56,8 +57,8 @@ struct Decision {
   double inlier_fraction = 0.0;
   double shaft_collision_fraction = 0.0;
   bool accepted = false;
-  /// Of the error at the worst target, under the answer: root mean square, and what 95 and 99 of
-  /// 100 errors stay below.
+  /// Of the error at the worst target: root mean square under the answer, and what 95 and 99 of 100
+  /// errors stay below under all poses of the bone.
   double rms_m = 0.0;
   double within_95_m = 0.0;
   double within_99_m = 0.0;

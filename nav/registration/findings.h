@@ -33,11 +33,10 @@ struct UncertainMotion {
     kFlexion,  ///< and extension
     kLateralBending,
     kAxialRotation,
-    kUnconstrained,  ///< by the strokes; it is not known which motion
   };
 
-  Kind kind = Kind::kUnconstrained;
-  double error_m = 0.0;  ///< root mean square, at the worst target; meaningless if unconstrained
+  Kind kind = Kind::kLateral;
+  double error_m = 0.0;  ///< root mean square, at the worst target
 
   friend bool operator==(const UncertainMotion&, const UncertainMotion&) = default;
 };

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "base/vec.h"
+#include "base/transform.h"
 
 namespace orthonav::nav {
 
@@ -23,8 +23,8 @@ struct ModelErrorHypothesis {
 };
 
 /// The prior before a bone is touched: segmentations of vertebrae in CT are off by 0.3 to 0.8 mm,
-/// with a correlation length of 5 to 10 mm. Two thirds of the probability lie there, the rest
-/// between 0.1 mm, which is practically exact, and 1 mm.
+/// with a correlation length of 5 to 10 mm. Nearly nine tenths of the probability lie there, the
+/// rest between 0.1 mm, which is practically exact, and 1 mm.
 [[nodiscard]] std::vector<ModelErrorHypothesis> model_error_hypotheses();
 
 /// Matern's correlation of order 3/2, (1 + x) exp(-x), falls to 1/e at this x.
@@ -33,6 +33,12 @@ inline constexpr double kSmoothScale = 2.146193;
 [[nodiscard]] double smooth_correlation(double lengths);
 /// Covariance of a model's error at two places.
 [[nodiscard]] double shared_error_m2(const ModelError& error, Vec3 a, Vec3 b);
+
+/// How high the tip was above the bone, at one place.
+struct EstimatedHeight {
+  Point<Vertebra> at;
+  double height_m = 0.0;
+};
 
 /// How an error of the model has moved a pose that was fitted to points on the bone. Places that
 /// are touched later lie on the same model.

@@ -128,10 +128,11 @@ Observations observed(std::span<const Point<World>> points, double tip_radius_m,
   const bool timed =
       times_s.size() == points.size() &&
       std::adjacent_find(times_s.begin(), times_s.end(), std::greater_equal<>()) == times_s.end();
-  // A short excursion that comes back, of a pointer that was lifted, begins nothing.
+  // A short excursion (half a second at 30 a second) that comes back, of a pointer that was lifted,
+  // begins nothing.
   constexpr std::size_t kExcursion = 15;
   int stroke = 0, area = 0;
-  std::size_t leapt = 0;  // where the last area begins
+  std::size_t leapt = 0;  // where the last leap ended
   std::vector<StrokePoint>& all = out.strokes;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_new[i]) {

@@ -14,7 +14,7 @@ namespace orthonav::nav::posterior {
 struct StrokePoint {
   Point<World> tip;
   int stroke = 0;       ///< which movement of the hand, ascending
-  int area = 0;         ///< of strokes that begin where the one before ended, ascending
+  int area = 0;         ///< points without a leap between them; ascending
   double time_s = 0.0;  ///< ascending within a stroke; meaningless if not `Observations::in_time`
   Vec3 shaft{};         ///< unit, from the tip back along the pointer; zero if not known
 };
@@ -22,8 +22,6 @@ struct StrokePoint {
 /// The strokes over one bone, in World.
 struct Observations {
   std::vector<StrokePoint> strokes;
-  /// SD along an axis of what shifts all of it alike: the tip, the cameras, the sizes of tags.
-  double common_sd_m = 0.0;
   /// False where the points come without strokes and times, in any order: nothing is then known of
   /// how the hand's error wanders.
   bool in_time = true;
@@ -33,15 +31,15 @@ struct Observations {
 /// Observations from points in the order of time. A leap of more than 8 mm begins another area,
 /// unless the tip is back within 15 points. With the time of each, a pause ends a stroke. Without,
 /// they are 1/30 s apart, a stroke is an area, and where most steps are leaps the points are in no
-/// order. A point within
-/// 0.05 mm of an earlier one is the same sample, repeated or resampled, and is left out. `shafts`
-/// and `times_s`: of each point, or none; times that do not ascend tell nothing.
+/// order. A point within 0.05 mm of an earlier one is the same sample, repeated or resampled, and
+/// is left out. `shafts` and `times_s`: of each point, or none; times that do not ascend tell
+/// nothing.
 [[nodiscard]] Observations observed(std::span<const Point<World>> points, double tip_radius_m,
                                     std::span<const Vec3> shafts = {},
                                     std::span<const double> times_s = {});
 
 /// Consecutive points of a stroke that count as one row; of points in no order, those of one cell
-/// of space. Depends on places in World only, so that all hypotheses have the same.
+/// of space. Depends on no pose, so that all hypotheses have the same.
 struct Unit {
   int stroke = 0;
   int area = 0;
@@ -50,9 +48,12 @@ struct Unit {
   Vec3 three_quarters_m;
   double begin_s = 0.0;
   double end_s = 0.0;
+
+  [[nodiscard]] Vec3 middle_m() const { return 0.5 * (quarter_m + three_quarters_m); }
 };
 
-/// At most about `most` units, each at least 4 mm long.
+/// About `most` units, each at least 4 mm long but for the last one of a stroke: of many short
+/// strokes up to half as many more than there are strokes.
 [[nodiscard]] std::vector<Unit> units_of(const Observations& observations, std::size_t most);
 
 /// Eight consecutive points of a stroke, or of one cell of space: what they deviate from their mean

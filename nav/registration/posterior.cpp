@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <queue>
 #include <set>
 #include <utility>
@@ -70,7 +69,8 @@ Touches touches_at(const Observations& observations, const BoneSurface& bone,
   }
   out.centre_m = (from_world * Point<World>{centre_in_world_m}).v;
   const std::size_t count = wanted.empty() ? out.all.size() : wanted.size();
-  // A hundred places tell the shape about all of them.
+  // A hundred places tell the shape about all of them, each about those that follow it: of points
+  // in no order it says little, and to look at all of these doubles the time.
   const std::size_t every = std::max<std::size_t>(1, count / 100);
   const Touches::Touch* shape = nullptr;
   for (std::size_t k = 0; k < count; ++k) {
@@ -239,7 +239,6 @@ Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
                  node[kTime] % 2 == 1};
   } else {
     out.white = 1.0;
-    out.noise = {prior.longest_s, false};
   }
   out.tissue = ratio(node[kTissue]);
   out.tissue_over = {prior.tissue_lengths_m[static_cast<std::size_t>(node[kLength]) / 2],
@@ -285,8 +284,8 @@ double correlation_at(const Correlated& of, double apart) {
 double between(const Unit& a, const Unit& b, const Correlated& field) {
   const auto correlation = [&](Vec3 p, Vec3 q) { return correlation_at(field, (p - q).norm()); };
   constexpr double kFar = 4.0;
-  const Vec3 middle_a = 0.5 * (a.quarter_m + a.three_quarters_m);
-  const Vec3 middle_b = 0.5 * (b.quarter_m + b.three_quarters_m);
+  const Vec3 middle_a = a.middle_m();
+  const Vec3 middle_b = b.middle_m();
   const double longest_m2 = std::max((a.three_quarters_m - a.quarter_m).squared_norm(),
                                      (b.three_quarters_m - b.quarter_m).squared_norm());
   if ((middle_a - middle_b).squared_norm() > kFar * kFar * longest_m2) {
@@ -344,7 +343,7 @@ struct Averaged::Units {
   std::vector<double> points;         ///< of each
   std::vector<std::uint32_t> wanted;  ///< points of all of them
   double within = 0.0;                ///< dimensions of what is within blocks
-  bool has_areas = false;             ///< of several strokes each, but not all of them
+  bool has_areas = false;             ///< several, and fewer than strokes
 
   /// Of each unit's points, evenly, about `most_points`.
   Units(const Observations& measured, const Prior& known, const Hand& of, std::size_t most,
@@ -637,18 +636,6 @@ OverStandoff over_standoff(const Squares& squares, double freedom,
   return out;
 }
 
-/// What the evidence of a point of the grid rests on.
-struct Basis {
-  Node node{};
-  Mixture of;
-  Products rows;                 ///< of the whitened columns
-  double dimensions = 0.0;       ///< how many rows, and deviations within blocks
-  double inside_m2 = 0.0;        ///< squares of the deviations, whitened
-  double log_determinant = 0.0;  ///< of all covariances
-  double log_outliers = 0.0;
-  double common_sd_m = 0.0;
-};
-
 /// What a point of the grid says of the heights at a pose.
 struct Answer {
   Part part;
@@ -674,11 +661,15 @@ Vector6 step_scale() {
   return scale;
 }
 
-std::optional<Answer> concluded(const Prior& prior, const Basis& basis, Asked asked) {
-  Products all = basis.rows;
+/// `whitened`: the columns, by the factor of this node.
+std::optional<Answer> concluded(const Averaged::Units& units, const Averaged::Units::Factor& factor,
+                                const Columns& whitened, const Node& node, Asked asked) {
+  const Prior& prior = units.prior;
+  const Mixture of = mixture(node, prior, units.observations.in_time);
+  Products all = whitened.transpose() * whitened;
   // Tissue that is thick in valleys, by an unknown amount of the size of its unevenness.
   constexpr double kNone = 1e-6;
-  const double valley = std::max(kNone, basis.of.tissue);
+  const double valley = std::max(kNone, of.tissue);
   all(kValley, kValley) += 1.0 / (valley * valley);
   using Moved = Eigen::Matrix<double, kMoved, kMoved>;
   const Eigen::LLT<Moved> llt(all.topLeftCorner<kMoved, kMoved>());
@@ -694,8 +685,9 @@ std::optional<Answer> concluded(const Prior& prior, const Basis& basis, Asked as
   const Eigen::Matrix<double, kMoved, 4> solved_four = llt.solve(all.topRightCorner<kMoved, 4>());
   const Eigen::Matrix4d left_four =
       all.bottomRightCorner<4, 4>() - all.topRightCorner<kMoved, 4>().transpose() * solved_four;
-  const double inside_m2 = basis.inside_m2;
-  const double dimensions = basis.dimensions;
+  // The blocks are a sample of all deviations within rows: what they say a dimension holds for all.
+  const double inside_m2 = units.within * factor.quadratic_within_m2;
+  const double dimensions = static_cast<double>(units.units.size()) + units.within;
   const double freedom = dimensions - 6.0;
   if (!(freedom > 1.0) || !(left_four(0, 0) > 0.0)) {
     return std::nullopt;
@@ -711,9 +703,11 @@ std::optional<Answer> concluded(const Prior& prior, const Basis& basis, Asked as
   const Eigen::Matrix<double, kMoved, 3> solved = solved_four * kept;
 
   const auto log_prior = [&](double s_m, double noise_m) {
-    return log_density_of_standoff(prior, s_m) + log_prior_of(prior, basis.node, s_m, noise_m);
+    return log_density_of_standoff(prior, s_m) + log_prior_of(prior, node, s_m, noise_m);
   };
-  const double fixed = basis.log_outliers - 0.5 * basis.log_determinant;
+  const double fixed =
+      units.hand.log_outliers -
+      0.5 * (factor.log_determinant + units.within * factor.log_determinant_within);
   const double log_nuisance = std::log(valley);
   const double log_pose = llt.matrixLLT().diagonal().array().log().sum() + log_nuisance;
   const OverStandoff over =
@@ -746,7 +740,7 @@ std::optional<Answer> concluded(const Prior& prior, const Basis& basis, Asked as
     out.size_variance =
         sized.noise_m2 / information + sized.variance_m2 * by_standoff * by_standoff;
   }
-  out.part.of = basis.of;
+  out.part.of = of;
   out.part.noise_m = std::sqrt(over.noise_m2);
   out.part.standoff_m = over.mean_m;
   out.moved = solved.col(2) - over.mean_m * solved.col(0);
@@ -760,24 +754,10 @@ std::optional<Answer> concluded(const Prior& prior, const Basis& basis, Asked as
   Eigen::Map<Rows6> covariance(out.part.covariance.data());
   covariance =
       step_scale().asDiagonal() * out.spread_m2.topLeftCorner<6, 6>() * step_scale().asDiagonal();
-  // What shifts all points alike shifts the pose, and nothing else.
-  covariance.diagonal().head<3>().array() += basis.common_sd_m * basis.common_sd_m;
   if (!std::isfinite(out.log_weight) || !step.allFinite()) {
     return std::nullopt;
   }
   return out;
-}
-
-Basis basis_of(Averaged::Units& units, const Averaged::Units::Factor& factor,
-               const Columns& whitened, const Node& node) {
-  return {node,
-          mixture(node, units.prior, units.observations.in_time),
-          whitened.transpose() * whitened,
-          static_cast<double>(units.units.size()) + units.within,
-          units.within * factor.quadratic_within_m2,
-          factor.log_determinant + units.within * factor.log_determinant_within,
-          units.hand.log_outliers,
-          units.observations.common_sd_m};
 }
 
 std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, const Node& node,
@@ -787,7 +767,7 @@ std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, con
     return std::nullopt;
   }
   const Columns whitened = factor->root.triangularView<Eigen::Lower>().solve(columns);
-  return concluded(units.prior, basis_of(units, *factor, whitened, node), asked);
+  return concluded(units, *factor, whitened, node, asked);
 }
 
 /// Points of the grid with their answers.
@@ -853,13 +833,6 @@ std::vector<Node> neighbours_of(const Node& node, const Node& size) {
     }
   }
   return out;
-}
-
-/// The likeliest first.
-void sort_by_weight(Answers& answers) {
-  std::stable_sort(answers.begin(), answers.end(), [](const auto& a, const auto& b) {
-    return a.second.log_weight > b.second.log_weight;
-  });
 }
 
 /// A few points of all the grid.
@@ -1045,7 +1018,8 @@ std::vector<EstimatedHeight> heights_of(Averaged::Units& units, const Touches& t
     const auto& factor = units.factor(node);
     const Mixture& of = a.part.of;
     const Eigen::VectorXd valleys = a.moved(kValley) * columns.col(kValley);
-    const Eigen::VectorXd left = columns.col(kHeight) - columns.leftCols<kMoved>() * a.moved -
+    const Eigen::VectorXd left = columns.col(kHeight) - a.lifts_m2 * columns.col(kCurvature) -
+                                 columns.leftCols<kMoved>() * a.moved -
                                  a.part.standoff_m * columns.col(kStandoff);
     const auto root = factor->root.triangularView<Eigen::Lower>();
     const Eigen::VectorXd solved = root.adjoint().solve(root.solve(left));
@@ -1064,8 +1038,7 @@ std::vector<EstimatedHeight> heights_of(Averaged::Units& units, const Touches& t
   std::vector<EstimatedHeight> out;
   for (Eigen::Index k = 0; k < n; ++k) {
     const Unit& unit = units.units[static_cast<std::size_t>(k)];
-    out.push_back({t.from_world * Point<World>{0.5 * (unit.quarter_m + unit.three_quarters_m)},
-                   mean(k) / sum});
+    out.push_back({t.from_world * Point<World>{unit.middle_m()}, mean(k) / sum});
   }
   return out;
 }
@@ -1094,8 +1067,7 @@ ModelShare model_share_of(Averaged::Units& units, const Touches& t, const Answer
   ModelShare out;
   for (Eigen::Index k = 0; k < gain.cols(); ++k) {
     const Unit& unit = units.units[static_cast<std::size_t>(k)];
-    out.places_m.push_back(
-        (t.from_world * Point<World>{0.5 * (unit.quarter_m + unit.three_quarters_m)}).v);
+    out.places_m.push_back((t.from_world * Point<World>{unit.middle_m()}).v);
     // The error moved the fitted pose by its gain; the true pose is that much back.
     Eigen::Map<Vector6>(out.step.emplace_back().data()) = -gain.col(k);
   }
@@ -1135,7 +1107,9 @@ void descend(Averaged::Units& units, const BoneSurface& bone, std::span<const No
 }  // namespace
 
 Averaged::Averaged(const Observations& observations, const Prior& prior)
-    : few_(std::make_unique<Units>(observations, prior, hand_, 64, 6)),
+    : observations_(observations),
+      prior_(prior),
+      few_(std::make_unique<Units>(observations, prior, hand_, 64, 6)),
       all_(std::make_unique<Units>(observations, prior, hand_, kUnits,
                                    std::max<std::size_t>(1, observations.strokes.size()))),
       blocks_(blocks_of(observations, all_->given)) {}
@@ -1152,14 +1126,10 @@ void Averaged::tell(Hand hand) {
 std::optional<Posterior> posterior_of(Averaged& averaged, const BoneSurface& bone,
                                       const Transform<World, Vertebra>& start, Effort effort,
                                       bool tells_hand, double least) {
-  constexpr std::size_t kFewestPoints = 24;
   constexpr double kStands_m = 3e-6;
   constexpr double kNearlyStands_m = 3e-5;
   constexpr double kAgain_m = 0.0001;
-  const Observations& observations = averaged.few().observations;
-  if (observations.strokes.size() < kFewestPoints) {
-    return std::nullopt;
-  }
+  const Observations& observations = averaged.observations();
   // The likeliest points of the grid steer the descent.
   const auto steering = [](std::span<const Node> nodes) {
     return nodes.first(std::min<std::size_t>(4, nodes.size()));
@@ -1175,7 +1145,7 @@ std::optional<Posterior> posterior_of(Averaged& averaged, const BoneSurface& bon
   for (int round = 0; round < most_rounds; ++round) {
     if (tells_hand) {
       all = touches_at(observations, bone, from_world, {}, nullptr);
-      averaged.tell(hand_at(observations, averaged.few().prior, averaged.blocks(), all));
+      averaged.tell(hand_at(observations, averaged.prior(), averaged.blocks(), all));
     }
     Averaged::Units& few = averaged.few();
     here = touches_at(observations, bone, from_world, few.wanted, tells_hand ? &all : nullptr);
@@ -1184,9 +1154,11 @@ std::optional<Posterior> posterior_of(Averaged& averaged, const BoneSurface& bon
       return std::nullopt;
     }
     const Vec3 before_m = here.centre_m;
+    const Mat3 before = from_world.rotation();
     descend(few, bone, steering(nodes), 12, full ? kStands_m : kNearlyStands_m, here);
     from_world = here.from_world;
-    if ((here.centre_m - before_m).norm() < kAgain_m) {
+    if ((here.centre_m - before_m).norm() < kAgain_m &&
+        kLever_m * rotation_angle_rad(from_world.rotation(), before) < kAgain_m) {
       break;
     }
   }
@@ -1201,7 +1173,9 @@ std::optional<Posterior> posterior_of(Averaged& averaged, const BoneSurface& bon
   if (answers.empty()) {
     return std::nullopt;
   }
-  sort_by_weight(answers);
+  std::stable_sort(answers.begin(), answers.end(), [](const auto& a, const auto& b) {
+    return a.second.log_weight > b.second.log_weight;
+  });
   std::vector<EstimatedHeight> heights;
   if (full && tells_hand) {
     heights = heights_of(units, here, answers);

@@ -20,7 +20,7 @@ namespace orthonav::nav::posterior {
 // The model of the heights. Under a pose, the signed distance d of a point at place p, at time t of
 // stroke k, is
 //
-//   d = s (1 + k u(p)) + c v(p) + f(p) + g(k) + n(t)
+//   d = s (1 + u(p)) + c v(p) + f(p) + g(k) + n(t)
 //
 // s >= 0 is the mean height of the tip (tissue, a light hand), u a Gaussian field over the bone
 // (tissue's thickness), v how deep in a valley the place lies (tissue is thick there, by an unknown
@@ -29,14 +29,12 @@ namespace orthonav::nav::posterior {
 // (Ornstein-Uhlenbeck). Or the point has nothing to do with the bone, and d is anything within a
 // range.
 //
-// What shifts all alike adds to the pose's covariance.
-//
 // Points are averaged over some 160 units of their strokes, whose heights are the rows. How points
 // deviate from the mean of the block of eight that they are in tells of the noise from point to
-// point. The pose (with a flat prior), c, the scale of all variances
-// and the size of the model are integrated in closed form, s by quadrature; all else are
-// hyperparameters, whose joint grid is summed over. (Rasmussen & Williams 2006, sections 2.7 and
-// 5.4.)
+// point. The pose (with a flat prior: per metre, and per radian at a lever arm, the same for every
+// explanation), c and the size of the model are integrated in closed form, the noise's SD by
+// Laplace's method, s by quadrature; all else are hyperparameters, whose joint grid is summed over.
+// (Rasmussen & Williams 2006, sections 2.7 and 5.4.)
 
 /// A correlation that falls to 1/e over a length (m) or a time (s): exponential, or Matern's of
 /// order 3/2 where what is correlated is smooth.
@@ -68,7 +66,8 @@ struct Part {
   double noise_m = 0.0;
   double standoff_m = 0.0;  ///< mean of s
   /// Of the pose: the step of the points (translation m, rotation vector rad) about
-  /// `Posterior::centre_m` in the model's frame, and its covariance by rows.
+  /// `Posterior::centre_m` in the model's frame, and its covariance by rows. The bone moves by the
+  /// opposite.
   std::array<double, 6> step{};
   std::array<double, 36> covariance{};
 };
@@ -97,17 +96,23 @@ class Averaged {
 
   static constexpr std::size_t kUnits = 160;
   struct Units;
-  [[nodiscard]] Units& few() { return *few_; }  ///< some points of each, to tell roughly
+  [[nodiscard]] Units& few() {
+    return *few_;
+  }  ///< fewer, and a few points of each, to tell roughly
   [[nodiscard]] Units& all() { return *all_; }
   [[nodiscard]] std::span<const std::array<std::uint32_t, kBlock>> blocks() const {
     return blocks_;
   }
   /// How many rows the points are, about: what is counted for each point counts so often.
   [[nodiscard]] double rows() const;
+  [[nodiscard]] const Observations& observations() const { return observations_; }
+  [[nodiscard]] const Prior& prior() const { return prior_; }
   [[nodiscard]] const Hand& hand() const { return hand_; }
   void tell(Hand hand);
 
  private:
+  const Observations& observations_;
+  const Prior& prior_;
   Hand hand_;
   std::unique_ptr<Units> few_;
   std::unique_ptr<Units> all_;
@@ -126,13 +131,12 @@ struct Posterior {
   double size_log_evidence = 0.0;
   double size = 1.0;
   double size_sd = 0.0;
-  double noise_m = 0.0;     ///< SD of points about the bone
+  double noise_m = 0.0;     ///< SD of hand and tracker
   double standoff_m = 0.0;  ///< mean height of the tip above the bone
   double uneven_m = 0.0;    ///< SD over the bone of what is not noise
   /// Correlation of the heights of two points at the same place, of different strokes.
   double across_strokes = 0.0;
-  /// How high the tip was along the strokes, without noise; where it was asked for in full and
-  /// nothing was shared.
+  /// How high the tip was along the strokes, without noise; of a full look that told the hand.
   std::vector<EstimatedHeight> heights;
   ModelShare model_share;  ///< about `centre_m`; likewise
   Hand hand;
@@ -164,8 +168,8 @@ enum class Effort : std::uint8_t { kRough, kFull };
 
 /// The posterior near `start`. `tells_hand`: the hand is what the points tell at this pose, and
 /// stays so afterwards; otherwise it is that of the best explanation, for all others to be compared
-/// with it. Empty where the points leave a motion undetermined, or where it is soon plain that the
-/// log evidence is less than `least`.
+/// with it. The first look tells. Empty where the points leave a motion undetermined, or where it
+/// is soon plain that the log evidence is less than `least`.
 [[nodiscard]] std::optional<Posterior> posterior_of(
     Averaged& averaged, const BoneSurface& bone, const Transform<World, Vertebra>& start,
     Effort effort, bool tells_hand, double least = -std::numeric_limits<double>::infinity());

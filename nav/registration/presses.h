@@ -77,8 +77,9 @@ struct PressFit {
 };
 
 /// Fits the step of the pose of `strokes`. Without places, the result is that of the strokes, with
-/// the usual error of a model in place of what they tell of it. Empty if the strokes leave a motion
-/// undetermined or a number is not finite.
+/// the usual error of a model in place of what they tell of it: strokes take slow wandering of the
+/// hand, and tissue, for an error of the model. Empty if `strokes` has no uncertainty or a number
+/// is not finite.
 [[nodiscard]] std::optional<PressFit> fit_presses(const VertebraModel& model,
                                                   const Registration& strokes,
                                                   std::span<const PressedPlace> places,
@@ -104,8 +105,8 @@ struct NextPlace {
 inline constexpr double kPressesApart_m = 0.003;
 
 /// The place on the stroked bone that reduces the error at the worst target most if pressed in
-/// addition to `pressed`, of which `fit` is, at least `apart_m` from them. Empty if none reduces
-/// it.
+/// addition to `pressed`, of which `fit` is, at least `apart_m` from them. Empty if the strokes
+/// hold no such place.
 [[nodiscard]] std::optional<NextPlace> place_to_press(
     const VertebraModel& model, const Registration& strokes, std::span<const Point<World>> stroked,
     std::span<const PressedPlace> pressed, const PressFit& fit, const PressModel& press,

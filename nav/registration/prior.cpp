@@ -53,7 +53,8 @@ double scatter_exceeded_m(const Prior& prior, double probability) {
   for (int k = 0; k < kDraws; ++k) {
     const double scale_m = prior.bare_m * std::pow(prior.tissue_m / prior.bare_m, random.uniform());
     const double s_m = std::abs(random.normal(0.0, scale_m));
-    // What is nowhere less than nothing varies by no more than its mean, about.
+    // What is nowhere less than nothing varies by no more than its mean, about. The grid goes on
+    // beyond: there that costs some evidence, here it would raise the limit.
     const auto uneven = [&] {
       return std::min(1.0,
                       prior.unevenness * std::exp(random.normal(0.0, prior.unevenness_log_sd))) *

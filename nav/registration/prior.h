@@ -5,8 +5,8 @@
 
 namespace orthonav::nav::posterior {
 
-/// What is known before a bone is touched. Each constant with its unit, its source, and what
-/// changes when it doubles.
+/// What is known before a bone is touched: each constant with its unit and, where they are known,
+/// its source and what changes when it doubles.
 struct Prior {
   // Soft tissue, or a light hand: the mean height s of the tip, and how uneven it is.
 
@@ -47,8 +47,8 @@ struct Prior {
   /// refused doubles.
   double noise_m = 0.00035;
   double noise_log_sd = 0.55;
-  /// Of the noise's variance, this share at least is white, and this one at least is not: evenly in
-  /// the log odds.
+  /// Of the noise's variance, this share at least is white, and this one at least is not, evenly in
+  /// the log odds; or all of it is.
   double white_share_least = 0.01;
   double shortest_s = 0.05;  ///< correlation time of what is not, evenly in its logarithm
   double longest_s = 2.0;
@@ -60,7 +60,7 @@ struct Prior {
 
   /// Probability that the shaft of one row seems to go through bone at the true pose: the pose is a
   /// little off, or the shaft bends. A guess. Doubled: a pose at which a fifth of all shafts go
-  /// through bone is worse by 130 units of log evidence instead of 150.
+  /// through bone is worse by 125 units of log evidence instead of 147.
   double shaft_in_bone = 0.01;
 
   // Rivals.

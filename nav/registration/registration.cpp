@@ -150,7 +150,7 @@ void put_weakest(const VertebraModel& model, const PoseUncertainty& uncertainty,
   }
 }
 
-/// The fraction of the reachable surface's area that lies within 5 mm of one of these places.
+/// The fraction of the reachable surface's area that lies within about 5 mm of one of these places.
 double coverage_fraction(const VertebraModel& model, std::span<const Vec3> places_m) {
   // Cells that hold a place, and their neighbours.
   const auto cell = [](double x) { return static_cast<int>(std::floor(x / kCovered_m)); };
@@ -240,7 +240,7 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
   constexpr double kGoodPart = 0.25;
   // A smaller field can't be distinguished from a segmentation's own error.
   constexpr double kUneven_m = 0.0003;
-  const RegistrationLimits limits = limits_of(question);
+  const RegistrationLimits limits = registration_limits();
   std::vector<RefusalReason> reasons;
   if (d.accepted) {
     return reasons;
@@ -255,10 +255,12 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
     reasons.push_back(
         {Kind::kShaftCollision, d.shaft_collision_fraction, limits.shaft_collision_fraction});
   }
-  if (d.wrong <= question.may_be_wrong) {
+  if (d.wrong <= kMayBeWrong) {
     return reasons;
   }
-  double of_width = 0.0, of_poses = 0.0, of_mirror = 0.0, of_size = 0.0;
+  double of_width = 0.0, of_poses = 0.0, of_mirror = 0.0, of_size = 0.0, of_levels = 0.0;
+  double of_likeliest = 0.0;
+  std::string level = r.fits_better;
   for (const Explanation& e : d.explanations) {
     const double wrong = e.probability * e.wrong;
     switch (e.kind) {
@@ -267,7 +269,12 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
         (is_width(e, d, question.targets) ? of_width : of_poses) += wrong;
         break;
       case Explanation::Kind::kLevel:
-        break;  // `fits_better` says
+        of_levels += wrong;
+        if (r.fits_better.empty() && wrong > of_likeliest) {
+          of_likeliest = wrong;
+          level = e.level;
+        }
+        break;
       case Explanation::Kind::kMirror:
         of_mirror += wrong;
         break;
@@ -276,24 +283,22 @@ std::vector<RefusalReason> reasons_of(const Decision& d, const Question& questio
         break;
     }
   }
-  const double most = std::max({of_width, of_poses, of_mirror, of_size});
-  const auto counts = [&](double wrong) {
-    return wrong > question.may_be_wrong || wrong > kGoodPart * most;
-  };
+  const double most = std::max({of_width, of_poses, of_mirror, of_size, of_levels});
+  const auto counts = [&](double wrong) { return wrong > kMayBeWrong || wrong > kGoodPart * most; };
   // What the bone is comes first: strokes of another one have other faults too.
   if (counts(of_mirror)) {
     reasons.insert(reasons.begin(),
                    {Kind::kMirrored, r.mirror_log_likelihood, limits.mirror_log_likelihood});
   }
-  if (!r.fits_better.empty()) {
-    reasons.insert(reasons.begin(), {Kind::kFitsOtherLevel, 0.0, 0.0, {}, r.fits_better});
+  if (counts(of_levels)) {
+    reasons.insert(reasons.begin(), {Kind::kFitsOtherLevel, 0.0, 0.0, {}, level});
   }
   if (counts(of_poses)) {
     reasons.push_back(
         {Kind::kLogLikelihoodRatio, r.log_likelihood_ratio, limits.log_likelihood_ratio});
   }
   if (counts(of_size)) {
-    reasons.push_back({Kind::kModelSize, r.size, question.size_off});
+    reasons.push_back({Kind::kModelSize, r.size, kMaxSizeOff});
   }
   if (counts(of_width) || reasons.empty()) {
     reasons.push_back({bone == Bone::kVertebra ? Kind::kTre99AtScrews : Kind::kTre99AtEnds,
@@ -351,8 +356,6 @@ bool is_provisional(const Registration& r) {
          r.uncertainty && r.predicted_tre_m <= kMaxProvisional_m;
 }
 
-RegistrationLimits registration_limits() { return limits_of({}); }
-
 Status validate_points(std::span<const Point<World>> points, std::size_t min_points, Bone bone) {
   const std::size_t fewest = std::max<std::size_t>(min_points, 3);
   if (points.size() < fewest) {
@@ -388,7 +391,7 @@ Status validate_points(std::span<const Point<World>> points, std::size_t min_poi
 Result<Registration> register_by_pose_search(const VertebraModel& model,
                                              std::span<const Point<World>> points_in_world,
                                              const PoseSearchRegistrationOptions& options) {
-  if (const Status s = validate_points(points_in_world, options.min_points, model.bone()); !s) {
+  if (const Status s = validate_points(points_in_world, kFewestPoints, model.bone()); !s) {
     return s.error();
   }
   const Observations observations =
@@ -397,7 +400,6 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
   question.targets = targets_of(model, options);
   question.neighbours = options.neighbours;
   question.most_m = options.max_tre_99_m;
-  question.size_off = options.max_size_off;
   question.prior.least_off_m = options.least_model_sd_m;
   const Result<Decision> found = decided(model, observations, question);
   if (!found) {
@@ -427,6 +429,8 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
   r.size_sd = answer.size_sd;
   put_errors(model, PoseUncertainty(answer.centre_m, answer.covariance), options.common,
              question.targets, r);
+  // At any of the targets, and by draws of the whole mixture: more than `put_errors` says, which is
+  // of one target at a time and of one Gaussian, as it is with pressed places.
   r.tre_95_m = d.within_95_m;
   r.tre_99_m = d.within_99_m;
 
@@ -436,7 +440,7 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
   for (const Explanation& e : d.explanations) {
     if (e.kind == Explanation::Kind::kMirror) {
       r.mirror_log_likelihood = e.log_ratio;
-    } else if (e.kind == Explanation::Kind::kLevel && e.probability > question.may_be_wrong &&
+    } else if (e.kind == Explanation::Kind::kLevel && e.probability > kMayBeWrong &&
                e.level != r.fits_better) {
       r.fits_better = r.fits_better.empty() ? e.level : std::string(kSeveralLevels);
     } else if (e.kind == Explanation::Kind::kOtherPose && !is_width(e, d, question.targets) &&

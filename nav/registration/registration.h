@@ -22,21 +22,12 @@ struct NeighbourLevel {
   const VertebraModel* model = nullptr;
 };
 
-/// How high the tip was above the bone, at one place.
-struct EstimatedHeight {
-  Point<Vertebra> at;
-  double height_m = 0.0;
-};
-
 struct PoseSearchRegistrationOptions {
-  std::size_t min_points = 100;
   /// Where the pose must be certain: the plan's entries and targets. If empty, places where screws
   /// usually go are used, or the ends of another bone than a vertebra.
   std::vector<Point<Vertebra>> targets;
-  /// A larger error at any of them makes the pose wrong, and so does a bone that is off the model's
-  /// size by more than this.
+  /// A larger error at any of them makes the pose wrong.
   double max_tre_99_m = 0.002;
-  double max_size_off = 0.015;
   double tip_radius_m = 0.0;  ///< of the ball at the pointer's end
   /// SD over the bone by which the model is known to differ from it, at least: the heights of the
   /// strokes may show less by chance.
@@ -60,6 +51,7 @@ struct RegistrationLimits {
   double log_likelihood_ratio = 0.0;      ///< least
   double mirror_log_likelihood = 0.0;     ///< most
 };
+/// By the default prior.
 [[nodiscard]] RegistrationLimits registration_limits();
 
 /// The result of a registration. If `accepted` is false, `reasons` says why, and it must not be
@@ -76,18 +68,18 @@ struct Registration {
   Transform<World, Vertebra> runner_up;
   int iterations = 0;
   std::size_t points = 0;
-  /// The remaining uncertainty, including common errors; absent if a motion is undetermined.
+  /// The remaining uncertainty, including common errors; absent with `paper`.
   std::optional<PoseUncertainty> uncertainty;
-  /// Root mean square error to expect from the registration alone, at the worst target. Infinite if
-  /// a motion is undetermined, and with `paper`, which predicts none.
+  /// Root mean square error to expect from the registration alone, at the worst target. Infinite
+  /// with `paper`, which predicts none.
   double predicted_tre_m = 0.0;
 
   // Reported by `best` only; zero or empty with `paper`.
   double tre_95_m = 0.0;  ///< the error that 95 of 100 stay below, at the worst target
   double tre_99_m = 0.0;
   CommonErrors common;                ///< included in `uncertainty`, and nowhere else
-  double noise_m = 0.0;               ///< SD of the points about the surface, without outliers
-  double standoff_m = 0.0;            ///< mean height of the tip above the bone; 0 if not certain
+  double noise_m = 0.0;               ///< SD of the tip's height at the points, without outliers
+  double standoff_m = 0.0;            ///< mean height of the tip above the bone
   double inlier_fraction = 0.0;       ///< of the points
   double effective_points = 0.0;      ///< number of independent points with the same information
   double log_likelihood_ratio = 0.0;  ///< against the runner-up
@@ -134,6 +126,9 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
 /// total uncertainty.
 void put_errors(const VertebraModel& model, const PoseUncertainty& own, const CommonErrors& common,
                 std::span<const Point<Vertebra>> targets, Registration& r);
+
+/// By pose search.
+inline constexpr std::size_t kFewestPoints = 100;
 
 /// Refuses points that can't be registered at all: too few, not finite, spread too widely, on a
 /// line.

@@ -92,8 +92,8 @@ void drop_isolated_cells(std::vector<Cell>& cells) {
   }
 }
 
-/// The points of a cloud about their centre, ordered such that the first n, for any n, are spread
-/// evenly over it, no matter how often a place was stroked.
+/// The points of a cloud about their centre, ordered such that the first n, for any n up to 150,
+/// are spread evenly over it, no matter how often a place was stroked.
 class SpreadPoints {
  public:
   /// Leaves out points farther than `reach_m` from the middle.

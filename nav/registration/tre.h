@@ -53,12 +53,12 @@ struct CommonErrors {
 };
 /// Adds common errors to an uncertainty, and removes them again.
 [[nodiscard]] PoseUncertainty with_common(const PoseUncertainty& own, const CommonErrors& common);
+[[nodiscard]] PoseUncertainty without_common(const PoseUncertainty& all,
+                                             const CommonErrors& common);
 /// Adds to an uncertainty a rotation about a place, of this SD about each direction across `axis`
 /// (unit).
 [[nodiscard]] PoseUncertainty with_turn(const PoseUncertainty& own, Point<Vertebra> about,
                                         Vec3 axis, double sd_rad);
-[[nodiscard]] PoseUncertainty without_common(const PoseUncertainty& all,
-                                             const CommonErrors& common);
 /// The uncertainty of a tracked tool's pose relative to the bone, from the uncertainties of both
 /// poses. They are taken as independent: errors that strokes and tool share (the cameras, the map)
 /// must not be in `bone`, or they are counted although they cancel. `origin_in_vertebra` is the

@@ -112,11 +112,7 @@ void append(std::string& out, const nav::UncertainMotion& motion) {
       translatable("medial-lateral shift"), translatable("anterior-posterior shift"),
       translatable("cranial-caudal shift"), translatable("flexion/extension"),
       translatable("lateral bending"),      translatable("axial rotation")};
-  static_assert(static_cast<std::size_t>(Kind::kUnconstrained) == kMotions.size());
-  if (motion.kind == Kind::kUnconstrained) {
-    out += translated("one motion of the bone is not determined");
-    return;
-  }
+  static_assert(static_cast<std::size_t>(Kind::kAxialRotation) + 1 == kMotions.size());
   out.append(translated(kMotions[static_cast<std::size_t>(motion.kind)])).append(" ");
   append_printed(out, translated("(%.1f mm at the screws)"), motion.error_m * 1e3);
 }

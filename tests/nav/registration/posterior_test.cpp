@@ -351,18 +351,6 @@ TEST(Posterior, TissueThatLeapsBetweenAreasIsNoField) {
   }
 }
 
-TEST(Posterior, WhatShiftsAllPointsAlikeIsPartOfTheError) {
-  constexpr double kCommon_m = 0.0005;
-  auto o = strokes(test::StrokeVariant::kFull, 3);
-  const auto alone = decided(*bone().model, o, bone().question()).value();
-  o.common_sd_m = kCommon_m;
-  const auto with = decided(*bone().model, o, bone().question()).value();
-  const double added_m2 = with.rms_m * with.rms_m - alone.rms_m * alone.rms_m;
-  EXPECT_NEAR(added_m2 / (3.0 * kCommon_m * kCommon_m), 1.0, 0.1);
-  EXPECT_EQ(with.answer.world_from_vertebra.translation(),
-            alone.answer.world_from_vertebra.translation());
-}
-
 TEST(Posterior, RepeatedPointsSayNothingNew) {
   const auto once =
       test::digitize_strokes(bone().from.mesh, test::StrokeVariant::kSparse, 4).value();

@@ -74,7 +74,7 @@ TEST_F(RegisterBest, NamesTheLevelThatWasStrokedInstead) {
     ASSERT_TRUE(r.ok()) << r.error().message;
     EXPECT_FALSE(r->accepted) << stroked << " on " << asked;
     EXPECT_EQ(r->fits_better, stroked);
-    EXPECT_THAT(kinds_of(*r), Contains(RefusalReason::Kind::kFitsOtherLevel));
+    EXPECT_THAT(kinds_of(*r), ElementsAre(RefusalReason::Kind::kFitsOtherLevel));
     EXPECT_EQ(r->reasons.front().level, stroked);
   }
 }
@@ -141,7 +141,7 @@ TEST_F(RegisterBest, RefusesTooSmallAPartAndSaysWhatToStroke) {
       stroked.push_back(s.tip);
     }
   }
-  ASSERT_GE(stroked.size(), PoseSearchRegistrationOptions().min_points);
+  ASSERT_GE(stroked.size(), kFewestPoints);
   const auto r = registered(stroked);
   ASSERT_TRUE(r.ok()) << r.error().message;
   EXPECT_FALSE(r->accepted);

@@ -41,7 +41,7 @@ inline std::vector<nav::RefusalReason> every_reason() {
   for (const auto kind : each_up_to(nav::RefusalReason::Kind::kMirrored)) {
     reasons.push_back({kind, 0.02, 0.01, {}, "L3", {}});
     reasons.push_back({kind, 0.01 + 1e-12, 0.01, {}, std::string(nav::kSeveralLevels), {}});
-    for (const auto motion : each_up_to(nav::UncertainMotion::Kind::kUnconstrained)) {
+    for (const auto motion : each_up_to(nav::UncertainMotion::Kind::kAxialRotation)) {
       reasons.push_back({kind, 0.02, 0.01, nav::UncertainMotion{motion, 0.001}, "L3", {}});
     }
     for (const nav::BonePlace& place : every_place()) {
