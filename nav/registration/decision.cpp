@@ -192,30 +192,6 @@ double shaft_collision_fraction(const Observations& observations, const Vertebra
   return looked_at > 0.0 ? through / looked_at : 0.0;
 }
 
-}  // namespace orthonav::nav::posterior
-
-namespace orthonav::nav {
-
-RegistrationLimits registration_limits() {
-  using posterior::kMayBeWrong;
-  constexpr double kLeastPredicted = 1e-3;  // of data like these, by the prior
-  constexpr double kOutlierPower = 18.0;    // 1 of 20 points on average, 3 of 10 once in 600
-  const posterior::Prior prior;
-  // The log ratio at which an explanation with these odds is as probable as it may be.
-  const auto takes_too_much = [](double odds) {
-    return std::log(kMayBeWrong / (1.0 - kMayBeWrong) / odds);
-  };
-  return {scatter_exceeded_m(prior, kLeastPredicted),
-          std::pow(kLeastPredicted, 1.0 / kOutlierPower),
-          // As if the share were drawn from an exponential density with the prior's mean.
-          -prior.shaft_in_bone * std::log(kLeastPredicted), -takes_too_much(1.0),
-          takes_too_much(prior.mirror_odds)};
-}
-
-}  // namespace orthonav::nav
-
-namespace orthonav::nav::posterior {
-
 Result<Decision> decided(const VertebraModel& model, const Observations& observations,
                          const Question& question) {
   const Prior& prior = question.prior;

@@ -356,6 +356,21 @@ bool is_provisional(const Registration& r) {
          r.uncertainty && r.predicted_tre_m <= kMaxProvisional_m;
 }
 
+RegistrationLimits registration_limits() {
+  constexpr double kLeastPredicted = 1e-3;  // of data like these, by the prior
+  constexpr double kOutlierPower = 18.0;    // 1 of 20 points on average, 3 of 10 once in 600
+  const Prior prior;
+  // The log ratio at which an explanation with these odds is as probable as it may be.
+  const auto takes_too_much = [](double odds) {
+    return std::log(kMayBeWrong / (1.0 - kMayBeWrong) / odds);
+  };
+  return {scatter_exceeded_m(prior, kLeastPredicted),
+          std::pow(kLeastPredicted, 1.0 / kOutlierPower),
+          // As if the share were drawn from an exponential density with the prior's mean.
+          -prior.shaft_in_bone * std::log(kLeastPredicted), -takes_too_much(1.0),
+          takes_too_much(prior.mirror_odds)};
+}
+
 Status validate_points(std::span<const Point<World>> points, std::size_t min_points, Bone bone) {
   const std::size_t fewest = std::max<std::size_t>(min_points, 3);
   if (points.size() < fewest) {

@@ -127,7 +127,7 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
 void put_errors(const VertebraModel& model, const PoseUncertainty& own, const CommonErrors& common,
                 std::span<const Point<Vertebra>> targets, Registration& r);
 
-/// By pose search.
+/// A pose search takes no fewer.
 inline constexpr std::size_t kFewestPoints = 100;
 
 /// Refuses points that can't be registered at all: too few, not finite, spread too widely, on a

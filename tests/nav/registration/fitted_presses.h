@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <optional>
 #include <span>
 
@@ -23,16 +21,6 @@ inline std::optional<Joined> fitted_and_joined(const VertebraModel& model,
   const auto fit = fit_presses(model, strokes, places, press);
   return fit ? std::optional(Joined{*fit, with_places(model, strokes, *fit, press, options)})
              : std::nullopt;
-}
-
-/// At the worst of these targets.
-inline double worst_rms_m(Vec3 centre_m, const std::array<double, 36>& covariance,
-                          std::span<const Point<Vertebra>> targets) {
-  double worst_m = 0.0;
-  for (const Point<Vertebra>& target : targets) {
-    worst_m = std::max(worst_m, PoseUncertainty(centre_m, covariance).predicted_tre_m(target));
-  }
-  return worst_m;
 }
 
 /// `place_to_press` beside places that are fitted first.

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/random.h"
-#include "tests/nav/registration/fitted_presses.h"
 #include "tests/nav/registration/stroked_bone.h"
 #include "tests/support/stroke_truths.h"
 
@@ -20,7 +19,7 @@ Vec3 somewhere(Random& random, double scale) {
 }
 
 double worst_rms_m(const StrokedBone& bone, const PressFit& fit) {
-  return nav::worst_rms_m(fit.centre_m, fit.covariance, bone.options.targets);
+  return worst_tre_m({fit.centre_m, fit.covariance}, bone.options.targets);
 }
 
 /// A bone, stroked and pressed, and its model, which a segmentation got wrong.

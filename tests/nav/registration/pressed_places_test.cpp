@@ -126,7 +126,7 @@ TEST(PressedPlaces, AModelTakenAsExactStillCountsInTheUncertainty) {
   EXPECT_GT(rms_m(told.fit.covariance), exact_m);
   EXPECT_LT(rms_m(told.fit.covariance), std::hypot(exact_m, std::sqrt(3.0) * kUsualModelError_m));
   EXPECT_EQ(told.registration.predicted_tre_m,
-            worst_rms_m(told.fit.centre_m, told.fit.in_limits, bone.options.targets))
+            worst_tre_m({told.fit.centre_m, told.fit.in_limits}, bone.options.targets))
       << "the limits";
   EXPECT_GT(told.registration.uncertainty->predicted_tre_m(middle), exact_m);
 }
